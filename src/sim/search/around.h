@@ -7,6 +7,8 @@
 
 #include "sim/simulation.h"
 
+#include <string.h>
+
 enum {
     SB_AROUND_MAX = 16383, /* records around a group: four times the index must fit 16 bits; 1000 are normal */
     SB_PLACE_STEP = 4      /* a place in a list is the index in the copy times this */
@@ -64,17 +66,19 @@ SB_INLINE sb_f4 sb_path_plane(const sb_group_plane *planes, uint32_t path)
     return planes[(path & SB_REFLECTION_MASK) - 1].plane;
 }
 
+/* The place of an image, and the value that its original carries in the last lane. */
+SB_INLINE sb_f4 sb_image_carrying(const sb_sim *sim, const sb_image *image)
+{
+    sb_f4 at;
+    memcpy(&at, image->at, sizeof at); /* the last lane is image->from */
+    return __builtin_shufflevector(at, (sb_f4)sim->state.position[image->from], 0, 1, 2, 7);
+}
+
 /* Appends the images to the records around a group. */
 SB_INLINE void sb_around_images(const sb_sim *sim, const sb_group *group, sb_f4 *out)
 {
     const sb_image *image = sim->groups.image + group->image;
-    const sb_group_plane *planes = sim->groups.plane + group->plane;
-    for (uint32_t k = 0; k < group->images; k++) {
-        sb_f4 at = sb_offset_carrying(sim->state.position[image[k].from], group->corner);
-        for (uint32_t path = image[k].path; path; path >>= SB_REFLECTION_BITS)
-            at = sb_reflect(sb_path_plane(planes, path), at);
-        out[k] = at;
-    }
+    for (uint32_t k = 0; k < group->images; k++) out[k] = sb_image_carrying(sim, &image[k]);
 }
 
 /* Copies the records around a group, as offsets from its corner, and their images. out: SB_AROUND_MAX. */
@@ -122,32 +126,32 @@ SB_INLINE void sb_around_vectors(const sb_sim *sim, const sb_group *group, const
     const sb_image *image = sim->groups.image + group->image;
     const sb_group_plane *planes = sim->groups.plane + group->plane;
     for (uint32_t k = 0; k < group->images; k++, out += 2) {
-        sb_f4 at = sb_offset_carrying(sim->state.position[image[k].from], group->corner), value = field[image[k].from];
-        for (uint32_t path = image[k].path; path; path >>= SB_REFLECTION_BITS) {
-            const sb_f4 plane = sb_path_plane(planes, path);
-            at = sb_reflect(plane, at);
-            value = sb_reflect_vector(plane, value);
-        }
-        out[0] = at;
+        sb_f4 value = sb_reflect_vector(sb_path_plane(planes, image[k].path), field[image[k].from]);
+        for (uint32_t path = image[k].path >> SB_REFLECTION_BITS; path; path >>= SB_REFLECTION_BITS)
+            value = sb_reflect_vector(sb_path_plane(planes, path), value);
+        out[0] = sb_image_carrying(sim, &image[k]);
         out[1] = value;
     }
 }
 
-/* The same for tensors in the form of sb_reflect_tensor. */
-SB_INLINE void sb_around_tensors(const sb_sim *sim, const sb_group *group, const sb_f4 *field, sb_f4 *out)
+/* The same for tensors in the form of sb_reflect_tensor. Returns false, without images, if all tensors are 0, as in
+   shallow water. */
+SB_INLINE bool sb_around_tensors(const sb_sim *sim, const sb_group *group, const sb_f4 *field, sb_f4 *out)
 {
+    const sb_f4 *record = out;
+    sb_i4 bits = {0};
     out = sb_around_with(sim, group, field, out);
+    for (; record < out; record += 2) bits |= ((sb_i4)record[0] & (sb_i4){0, 0, 0, -1}) | (sb_i4)record[1];
+    if ((bits[0] | bits[1] | bits[2] | bits[3]) == 0) return false;
     const sb_image *image = sim->groups.image + group->image;
     const sb_group_plane *planes = sim->groups.plane + group->plane;
     for (uint32_t k = 0; k < group->images; k++, out += 2) {
-        out[0] = sb_offset_carrying(sim->state.position[image[k].from], group->corner);
+        out[0] = sb_image_carrying(sim, &image[k]);
         out[1] = field[image[k].from];
-        for (uint32_t path = image[k].path; path; path >>= SB_REFLECTION_BITS) {
-            const sb_f4 plane = sb_path_plane(planes, path);
-            out[0] = sb_reflect(plane, out[0]);
-            sb_reflect_tensor(plane, &out[0], &out[1]);
-        }
+        for (uint32_t path = image[k].path; path; path >>= SB_REFLECTION_BITS)
+            sb_reflect_tensor(sb_path_plane(planes, path), &out[0], &out[1]);
     }
+    return true;
 }
 
 /* Puts another field's values into the last lanes of the values that sb_around_with copied. */

@@ -18,10 +18,12 @@ typedef struct sb_group_plane {
 } sb_group_plane;
 
 /* A record reflected by planes of its group. path: indices of the planes plus 1, the first reflection in the lowest
-   byte; 0: no more. */
+   byte; 0: no more. at: its place when the lists were made, as an offset from the group's corner, because to reflect it
+   again in every pass took as long as the pass itself over the pairs (docs/decisions/0039). */
 enum { SB_REFLECTIONS_MAX = 4, SB_REFLECTION_BITS = 8, SB_REFLECTION_MASK = 255 };
 typedef struct sb_image {
-    uint32_t from, path;
+    float at[3];         /* quanta */
+    uint32_t from, path; /* from: right after `at` (sb_image_carrying) */
 } sb_image;
 
 /* Consecutive particles, and the records around them; see sim/search/around.h. */

@@ -240,7 +240,6 @@ static void consider(const sb_sim *sim, const box *b, uint32_t index, sb_near *n
     if (mirror->moving != UINT32_MAX) {
         const sb_moving_body *body = &sim->walls.moving[mirror->moving];
         moved = sb_scale(body->direction, body->displacement / sim->space.quantum);
-        near->moves = true;
         velocity = (sb_f4){(float)body->velocity.x, (float)body->velocity.y, (float)body->velocity.z, 0};
     }
     const double level = mirror->distance + sb_dot(mirror->normal, moved);
@@ -254,6 +253,7 @@ static void consider(const sb_sim *sim, const box *b, uint32_t index, sb_near *n
         near->full = true;
         return;
     }
+    near->moves |= mirror->moving != UINT32_MAX;
     sb_near_facet *f = &near->facet[near->count++];
     *f = (sb_near_facet){.plane = {(float)mirror->normal.x, (float)mirror->normal.y, (float)mirror->normal.z,
                                    (float)(level - sb_dot(mirror->normal, b->corner))},

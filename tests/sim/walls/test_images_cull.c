@@ -81,17 +81,16 @@ static void what_is_left_out_has_no_weight(void **state)
         make_facet();
         const sb_f4 low = {EDGE + draw(0, EDGE), EDGE + draw(0, EDGE), EDGE + draw(0, EDGE), 0};
         const sb_f4 high = low + (sb_f4){draw(0, EDGE), draw(0, EDGE), draw(0, EDGE), 0};
-        sources = (sb_sources){.count = 1 + (size_t)draw(0, 40), .x = x, .y = y, .z = z, .half = 0.5f * EDGE};
+        sources = (sb_sources){.count = 1 + (size_t)draw(0, 40), .x = x, .y = y, .z = z};
         sources.lowest[0] = INFINITY, sources.highest[0] = -INFINITY;
         const sb_f4 cell = {EDGE * floorf(draw(0, 4)), EDGE * floorf(draw(0, 4)), EDGE * floorf(draw(0, 4)), 0};
-        sources.middle = cell + (sb_f4){0.5f, 0.5f, 0.5f, 0} * sb_splat(EDGE);
         for (size_t s = 0; s < sources.count; s++)
             x[s] = cell[0] + draw(0, EDGE), y[s] = cell[1] + draw(0, EDGE), z[s] = cell[2] + draw(0, EDGE);
         sb_cull_begin(&sim, &near, low, high, &cull);
         const bool any = sb_cull_sources(&near, &cull, &sources);
         for (size_t s = 0; s < sources.count; s++) {
             const sb_f4 source = {x[s], y[s], z[s], 0};
-            const bool none = !any || sources.none[s];
+            const bool none = !any || sources.apart[0][s] || sources.beyond[0][s];
             for (int p = 0; p < PARTICLES; p++) {
                 const sb_f4 self = particle(low, high);
                 const sb_f4 path = self - sb_reflect(near.facet[0].plane, source), way = self - source;

@@ -3,6 +3,7 @@
 #include "sim/passes/cpu/body_forces.h"
 #include "sim/passes/cpu/cpu.h"
 #include "sim/passes/cpu/drag.h"
+#include "sim/passes/cpu/reactions.h"
 #include "sim/passes/groups.h"
 #include "sim/search/around.h"
 #include "sim/step/ledger.h"
@@ -154,39 +155,6 @@ static bool one_body(const sb_sim *sim, const uint32_t *index, size_t count)
     return same;
 }
 
-/* Adds the forces on bodies by pairs of particle i with images and by its pairs at edges. Each reflection of a path
-   takes the normal part of the pair's force; what remains acts between the two particles. */
-static void react_images(const sb_sim *sim, const sb_group *group, uint32_t records, size_t i, sb_reactions *reactions,
-                         forces *to)
-{
-    const sb_lists *lists = &sim->work.pairs;
-    const sb_group_plane *planes = sim->groups.plane + group->plane;
-    const sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
-    const sb_f4 self = sb_offset(sim->state.position[i], group->corner);
-    const float own = sim->work.unknown[i], hydrostatic = sb_hydrostatic(sim);
-    for (size_t k = 4 * (size_t)lists->direct[i]; k < 4 * (size_t)lists->count[i]; k++) {
-        const sb_four_pairs *four = &lists->four[lists->first[i] + k / 4];
-        if (four->slope[k % 4] == 0) continue;
-        const sb_image image = sim->groups.image[group->image + four->place[k % 4] / SB_PLACE_STEP - records];
-        const float root = (float)four->slope[k % 4], slope = root * root * lists->unit;
-        const sb_f4 from = sb_offset(sim->state.position[image.from], group->corner);
-        sb_f4 place = from;
-        for (uint32_t path = image.path; path; path >>= SB_REFLECTION_BITS)
-            place = sb_reflect(sb_path_plane(planes, path), place);
-        const float q = own + sim->work.unknown[sb_entry_owner(sim, image.from)];
-        const sb_f4 pull = (self - place) * sb_splat(-slope);
-        sb_reactions_reflected(reactions, planes, image.path, pull * sb_splat(q));
-        sb_reactions_normal(reactions, planes, image.path, pull * sb_splat(hydrostatic * (from[2] - place[2])));
-    }
-    sb_reactions_close(sim, planes, at, reactions, &to->on);
-    for (uint32_t k = 0; k < sim->work.edge_pairs.count[i]; k++) {
-        const sb_edge_pair *e = &sim->work.edge_pairs.pair[sim->work.edge_pairs.first[i] + k];
-        const double q = (double)own + (double)sim->work.unknown[sb_entry_owner(sim, e->entry)];
-        sb_body_forces_of_facet(sim, &to->on, e->mirror, at, vector(e->own, (double)sim->constant.mass * q),
-                                (sb_vec3){0});
-    }
-}
-
 /* Adds the forces of particle i's pressure and drag on bodies. Returns the sum of sb_wall_drag_four; law: NULL without
    drag. */
 SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, forces *to)
@@ -230,15 +198,17 @@ static void do_group(sb_sim *sim, const sb_group *group, const sb_wall_drag *law
     const sb_f4 *velocity = sim->state.velocity; /* at the step's start */
     double works[WORKS] = {0};
     const uint32_t records = sb_around_count(sim, group);
+    sb_pull pulls[SB_AROUND_MAX];
     const bool recorded = !sim->needs.images && sb_pushes_near(sim, group);
     sb_reactions reactions = {0};
     bool beside_wall = false;
+    sb_pulls_find(sim, group, pulls);
     for (size_t i = group->first; i < group->end; i++) {
         const bool reflects = sim->needs.images && (sim->work.pairs.count[i] > sim->work.pairs.direct[i] ||
                                                     sim->work.edge_pairs.count[i] > 0);
         if (sim->work.wall_pairs.count[i] == 0 && !reflects && group->planes == 0) continue;
         beside_wall = true;
-        if (reflects) react_images(sim, group, records, i, &reactions, to);
+        if (reflects) sb_react_images(sim, group, records, pulls, i, &reactions, &to->on);
         if (group->planes > 0) contact_facets(sim, group, i, to, works);
         if (sim->work.wall_pairs.count[i] == 0) continue;
         const sb_f4 drag = react(sim, i, law->on ? law : NULL, to);

@@ -129,7 +129,6 @@ static bool find_near(const sb_cull *cull, sb_sources *of)
         const sb_f8 far2 = from_box2(&cull->box, eight_of(of->x + s), eight_of(of->y + s), eight_of(of->z + s));
         const sb_i8 near = (far2 < support2) & (lanes < (int32_t)(of->count - s));
         *(sb_i8 *)(of->near + s) = near;
-        *(sb_i8 *)(of->none + s) = ~(sb_i8){0};
         any |= near;
     }
     int32_t all = 0;
@@ -146,8 +145,9 @@ SB_INLINE void widen(sb_sources *of, size_t facet, sb_f8 lowest, sb_f8 highest)
     }
 }
 
+/* Returns whether any image by the facet is near the group. */
 SB_MULTIVERSION
-static void at_facet(const sb_near_facet *f, const sb_cull *cull, size_t facet, sb_sources *of)
+static bool at_facet(const sb_near_facet *f, const sb_cull *cull, size_t facet, sb_sources *of)
 {
     const sb_f4 plane = f->plane;
     const sb_f8 nx = sb_splat8(plane[0]), ny = sb_splat8(plane[1]), nz = sb_splat8(plane[2]);
@@ -156,39 +156,25 @@ static void at_facet(const sb_near_facet *f, const sb_cull *cull, size_t facet, 
     const sb_f8 least = sb_splat8(f->edges > 0 || f->both ? -reach : -cull->eps);
     const sb_f8 infinite = sb_splat8(INFINITY);
     sb_f8 lowest = infinite, highest = -infinite;
+    sb_i8 all_apart = ~(sb_i8){0};
     for (size_t s = 0; s < padded(of); s += SB_SOURCE_LANES) {
         const sb_f8 x = eight_of(of->x + s), y = eight_of(of->y + s), z = eight_of(of->z + s);
         const sb_f8 h = nx * x + ny * y + nz * z - sb_splat8(plane[3]), twice = h + h;
         const sb_f8 far2 = from_box2(&cull->box, x - twice * nx, y - twice * ny, z - twice * nz);
         const sb_i8 near = *(sb_i8 *)(of->near + s);
         *(sb_f8 *)(of->above + s) = h;
-        *(sb_i8 *)(of->apart[facet] + s) = (far2 > most2) | (h < least) | (h > most);
+        const sb_i8 apart = (far2 > most2) | (h < least) | (h > most) | ~near;
+        *(sb_i8 *)(of->apart[facet] + s) = apart;
+        all_apart &= apart;
         *(sb_i8 *)(of->beyond[facet] + s) = (sb_i8){0};
         *(sb_i8 *)(of->whole[facet] + s) = h > (sb_f8){0};
         lowest = -larger(-lowest, -sb_select8(near, h, infinite));
         highest = larger(highest, sb_select8(near, h, -infinite));
     }
     widen(of, facet, lowest, highest);
-}
-
-SB_MULTIVERSION
-static void find_none(sb_sources *of, size_t facet, bool always)
-{
-    const sb_i8 counts = {-!always, -!always, -!always, -!always, -!always, -!always, -!always, -!always};
-    for (size_t s = 0; s < padded(of); s += SB_SOURCE_LANES)
-        *(sb_i8 *)(of->none + s) &= *(sb_i8 *)(of->apart[facet] + s) | (*(sb_i8 *)(of->beyond[facet] + s) & counts);
-}
-
-/* Whether all of a cell is farther from the facet's plane than the support radius; then no image is near. */
-static bool far_from(const sb_near_facet *f, const sb_cull *cull, size_t facet, sb_sources *of)
-{
-    const float middle = sb_before_facet(f, of->middle);
-    const float half = of->half * (fabsf(f->plane[0]) + fabsf(f->plane[1]) + fabsf(f->plane[2])) + cull->eps;
-    if (fabsf(middle) - half <= (1 + MARGIN) * cull->support) return false;
-    if (middle < of->lowest[facet]) of->lowest[facet] = middle;
-    if (middle > of->highest[facet]) of->highest[facet] = middle;
-    for (size_t s = 0; s < of->count; s++) of->apart[facet][s] = -1, of->beyond[facet][s] = of->whole[facet][s] = 0;
-    return true;
+    int32_t all = -1;
+    for (int lane = 0; lane < SB_SOURCE_LANES; lane++) all &= all_apart[lane];
+    return all == 0;
 }
 
 bool sb_cull_sources(const sb_near *near, const sb_cull *cull, sb_sources *of)
@@ -196,11 +182,9 @@ bool sb_cull_sources(const sb_near *near, const sb_cull *cull, sb_sources *of)
     if (!find_near(cull, of)) return false;
     bool any = false;
     for (size_t a = 0; a < near->count; a++) {
-        if (far_from(&near->facet[a], cull, a, of)) continue;
-        any = true;
-        at_facet(&near->facet[a], cull, a, of);
-        if (near->facet[a].edges > 0) at_edges(near, cull, a, of);
-        find_none(of, a, near->skew);
+        of->any[a] = at_facet(&near->facet[a], cull, a, of);
+        if (of->any[a] && near->facet[a].edges > 0) at_edges(near, cull, a, of);
+        any |= of->any[a];
     }
     return any;
 }

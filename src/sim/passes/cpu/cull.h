@@ -28,14 +28,12 @@ typedef struct sb_cull {
     sb_edge_bounds edge[SB_NEAR_EDGES_MAX];
 } sb_cull;
 
-/* Consecutive records of one cell near a group. x, y, z: SB_HIT_SPARE entries beyond the last can be read. By facet: */
+/* Consecutive records near a group. x, y, z: SB_HIT_SPARE entries beyond the last can be read. By facet: */
 typedef struct sb_sources {
     size_t count;
     const float *x, *y, *z;
-    sb_f4 middle;                                             /* of the cell */
-    float half;                                               /* of its edge */
+    bool any[SB_NEAR_MAX];                                    /* some image is near the group */
     _Alignas(32) int32_t near[SB_SOURCES_MAX];                /* within the support radius of the group's box */
-    _Alignas(32) int32_t none[SB_SOURCES_MAX];                /* no facet reflects it towards the group */
     _Alignas(32) float above[SB_SOURCES_MAX];                 /* before the plane of the last facet */
     _Alignas(32) int32_t apart[SB_NEAR_MAX][SB_SOURCES_MAX];  /* the image is not near the group, or there is none */
     _Alignas(32) int32_t beyond[SB_NEAR_MAX][SB_SOURCES_MAX]; /* paths by this facet have no weight */

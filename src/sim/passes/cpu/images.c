@@ -58,7 +58,7 @@ static bool square_to_all(const sb_near *near, uint32_t path, size_t a)
 }
 
 /* Notes an image. Returns false if there are too many. */
-static bool add_image(const gatherer *g, uint32_t source, const route *to, bool whole)
+static bool add_image(const gatherer *g, uint32_t source, const route *to, bool whole, float above)
 {
     sb_vicinity *v = g->v;
     const size_t k = v->images, c = v->count + k;
@@ -68,25 +68,25 @@ static bool add_image(const gatherer *g, uint32_t source, const route *to, bool 
     g->images->source[k] = source;
     g->images->path[k] = to->path;
     g->images->whole[k] = whole;
+    g->images->above[k] = above;
     g->images->angles[k] = SB_ANGLES_UNKNOWN;
+    g->images->number[k] = UINT32_MAX;
     v->images++;
     return true;
 }
 
 /* Adds the images of a source, which is number `s` of those in hand, by the paths that go on from here. */
-static void reflect_all(gatherer *g, uint32_t source, size_t s, const route *from)
+static void reflect_on(gatherer *g, uint32_t source, size_t s, const route *from)
 {
     const sb_near *near = g->near;
     const sb_sources *of = g->sources;
     for (size_t a = 0; a < near->count && !g->full; a++) {
-        if (from->depth == 0 ? of->apart[a][s] : !goes_on(near, from->path, from->last, a)) continue;
-        if (of->beyond[a][s] && !near->skew) continue;
+        if (!goes_on(near, from->path, from->last, a) || (of->beyond[a][s] && !near->skew)) continue;
         const sb_near_facet *f = &near->facet[a];
         const float above = sb_before_facet(f, from->at);
         if (fabsf(above) >= g->cull->support) continue;
         const bool soft = f->edges > 0 || f->both;
-        const bool square = from->depth == 0 || sb_facets_square(near, from->last, a);
-        if (above <= 0 && !(soft && square)) continue;
+        if (above <= 0 && !(soft && sb_facets_square(near, from->last, a))) continue;
         const route to = {.at = sb_reflect(f->plane, from->at),
                           .path = from->path | (uint32_t)(a + 1) << (SB_REFLECTION_BITS * from->depth),
                           .depth = from->depth + 1,
@@ -96,11 +96,34 @@ static void reflect_all(gatherer *g, uint32_t source, size_t s, const route *fro
         /* Further reflections take an image farther away. */
         if (!within(&g->cull->box, g->cull->support, to.at)) continue;
         const bool misses = to.square ? to.beyond : !sb_cull_meets(near, g->cull, to.path, to.at);
-        if (!misses && !add_image(g, source, &to, from->depth == 0 && of->whole[a][s])) {
+        if (!misses && !add_image(g, source, &to, false, above)) {
             g->full = true;
             return;
         }
-        if (to.depth < SB_REFLECTIONS_MAX && near->meeting) reflect_all(g, source, s, &to);
+        if (to.depth < SB_REFLECTIONS_MAX) reflect_on(g, source, s, &to);
+    }
+}
+
+/* Adds the images of the sources by paths that begin at facet a. first: candidate of the first source. */
+SB_INLINE void reflect_at(gatherer *g, uint32_t first, size_t a)
+{
+    const sb_near *near = g->near;
+    const sb_sources *of = g->sources;
+    const sb_near_facet *f = &near->facet[a];
+    const bool soft = f->edges > 0 || f->both;
+    for (size_t s = 0; s < of->count && !g->full; s++) {
+        if (of->apart[a][s] || (of->beyond[a][s] && !near->skew)) continue;
+        const sb_f4 at = g->v->place[first + s];
+        const float above = sb_before_facet(f, at);
+        if (above <= 0 && !soft) continue;
+        const route to = {.at = sb_reflect(f->plane, at),
+                          .path = (uint32_t)(a + 1),
+                          .depth = 1,
+                          .last = a,
+                          .square = true,
+                          .beyond = of->beyond[a][s]};
+        if (!to.beyond && !add_image(g, first + (uint32_t)s, &to, of->whole[a][s], above)) g->full = true;
+        if (near->meeting && !g->full) reflect_on(g, first + (uint32_t)s, s, &to);
     }
 }
 
@@ -114,18 +137,17 @@ static void find_box(const sb_sim *sim, const sb_group *group, sb_f4 *low, sb_f4
     }
 }
 
-/* The images of candidates [begin, end), which are in one cell. */
-static void reflect_cell(gatherer *g, uint32_t begin, uint32_t end)
+/* The images of all candidates. */
+static void reflect_candidates(gatherer *g)
 {
     const sb_vicinity *v = g->v;
     sb_sources *of = g->sources;
-    for (; begin < end; begin += (uint32_t)of->count) {
-        of->count = end - begin < SB_SOURCES_MAX ? end - begin : SB_SOURCES_MAX;
+    for (size_t begin = 0; begin < v->count; begin += of->count) {
+        of->count = v->count - begin < SB_SOURCES_MAX ? v->count - begin : SB_SOURCES_MAX;
         of->x = v->x + begin, of->y = v->y + begin, of->z = v->z + begin;
         if (!sb_cull_sources(g->near, g->cull, of)) continue;
-        for (size_t s = 0; s < of->count && !g->full; s++)
-            if (!of->none[s])
-                reflect_all(g, begin + (uint32_t)s, s, &(route){.at = v->place[begin + s], .square = true});
+        for (size_t a = 0; a < g->near->count; a++)
+            if (of->any[a]) reflect_at(g, (uint32_t)begin, a);
     }
 }
 
@@ -172,11 +194,13 @@ static void drop_edges(const sb_sim *sim, const sb_vicinity *v, const sb_box *bo
     near->edge_count = kept;
 }
 
+SB_MULTIVERSION
 bool sb_images_gather(const sb_sim *sim, const sb_group *group, sb_vicinity *v, sb_images_around *images)
 {
     sb_f4 low, high;
     v->images = 0;
     images->angle_count = 0;
+    images->used = 0;
     find_box(sim, group, &low, &high);
     sb_near *near = &images->near;
     sb_mirrors_near(sim, group, low, high, near);
@@ -187,66 +211,34 @@ bool sb_images_gather(const sb_sim *sim, const sb_group *group, sb_vicinity *v, 
     gatherer g = {v, near, images, &images->cull, &images->sources, false};
     sb_cull_begin(sim, near, low, high, g.cull);
     for (size_t a = 0; a < near->count; a++) g.sources->lowest[a] = INFINITY, g.sources->highest[a] = -INFINITY;
-    uint32_t *start = v->start[SB_VICINITY_IMAGES];
-    const size_t cells = (size_t)v->cells[0] * v->cells[1] * v->cells[2];
-    const float edge = (float)((int32_t)1 << sim->space.shift);
-    g.sources->half = 0.5f * edge;
-    for (size_t cell = 0; cell < cells; cell++) {
-        const float x = (float)(cell % v->cells[0]), y = (float)(cell / v->cells[0] % v->cells[1]);
-        const float z = (float)(cell / v->cells[0] / v->cells[1]);
-        g.sources->middle = ((sb_f4){x, y, z, 0} + sb_splat(0.5f)) * sb_splat(edge);
-        start[cell] = (uint32_t)(v->count + v->images);
-        for (size_t part = 0; part < v->parts; part++) reflect_cell(&g, v->start[part][cell], v->start[part][cell + 1]);
-    }
-    start[cells] = (uint32_t)(v->count + v->images);
+    reflect_candidates(&g);
     find_parts(&g, margin);
     return !g.full;
 }
 
 /* ---- lists ---- */
 
-/* The groups of four with images in the list of particle i. */
-SB_INLINE sb_four_pairs *image_fours(const sb_sim *sim, const sb_list_builder *lists, size_t i, size_t *count)
+SB_MULTIVERSION
+void sb_images_number(const sb_vicinity *v, sb_images_around *images, sb_hits *hits)
 {
-    const sb_lists *pairs = &sim->work.pairs;
-    *count = pairs->count[i] - pairs->direct[i];
-    return lists->four + pairs->first[i] + pairs->direct[i];
+    for (size_t k = 0; k < hits->count; k++) {
+        const size_t image = hits->candidate[k] - v->count;
+        if (images->number[image] == UINT32_MAX) {
+            images->number[image] = images->used;
+            images->listed[images->used++] = (uint32_t)image;
+        }
+        hits->candidate[k] = (uint32_t)v->count + images->number[image];
+    }
 }
 
-/* Numbers the images that lists refer to, in their order. Returns their number. */
-static uint32_t number_images(const sb_sim *sim, const sb_group *group, const sb_list_builder *lists,
-                              const sb_vicinity *v, sb_images_around *images)
-{
-    uint32_t used = 0;
-    size_t fours;
-    for (size_t k = 0; k < v->images; k++) images->number[k] = 0;
-    for (size_t i = group->first; i < group->end; i++) {
-        const sb_four_pairs *four = image_fours(sim, lists, i, &fours);
-        for (size_t k = 0; k < 4 * fours; k++) {
-            const size_t candidate = four[k / 4].place[k % 4] / SB_PLACE_STEP;
-            if (candidate >= v->count) images->number[candidate - v->count] = 1;
-        }
-    }
-    for (size_t k = 0; k < v->images; k++) images->number[k] = images->number[k] ? used++ : UINT32_MAX;
-    for (size_t i = group->first; i < group->end; i++) {
-        sb_four_pairs *four = image_fours(sim, lists, i, &fours);
-        for (size_t k = 0; k < 4 * fours; k++) {
-            const size_t candidate = four[k / 4].place[k % 4] / SB_PLACE_STEP;
-            if (candidate < v->count) continue;
-            four[k / 4].place[k % 4] = (uint16_t)((v->count + images->number[candidate - v->count]) * SB_PLACE_STEP);
-        }
-    }
-    return used;
-}
-
-void sb_list_images(const sb_sim *sim, sb_list_builder *lists, const sb_vicinity *v, sb_images_around *images,
-                    sb_group *group)
+SB_MULTIVERSION
+void sb_list_images(sb_list_builder *lists, const sb_vicinity *v, sb_images_around *images, sb_group *group)
 {
     group->image = (uint32_t)lists->images;
     group->plane = (uint32_t)lists->planes;
     group->images = group->planes = 0;
     if (v->images == 0 || lists->out_of_memory) return;
-    const uint32_t used = number_images(sim, group, lists, v, images);
+    const uint32_t used = images->used;
     const size_t planes = images->near.count;
     if (sb_grow((void **)&lists->image, &lists->capacity_image, lists->images + used, sizeof *lists->image) != 0 ||
         sb_grow((void **)&lists->plane, &lists->capacity_plane, lists->planes + planes, sizeof *lists->plane) != 0) {
@@ -254,13 +246,14 @@ void sb_list_images(const sb_sim *sim, sb_list_builder *lists, const sb_vicinity
         return;
     }
     uint32_t run = 0, before = 0;
-    for (size_t k = 0; k < v->images; k++) {
-        if (images->number[k] == UINT32_MAX) continue;
-        /* Sources follow the cells, in one part after the other: nearly in the order of the runs. */
+    for (uint32_t n = 0; n < used; n++) {
+        const uint32_t k = images->listed[n];
         const uint32_t source = images->source[k];
         if (source < before) run = before = 0;
         while (source >= before + v->run[run].count) before += v->run[run++].count;
-        lists->image[lists->images++] = (sb_image){v->run[run].begin + source - before, images->path[k]};
+        const sb_f4 at = v->place[v->count + k];
+        lists->image[lists->images++] =
+            (sb_image){{at[0], at[1], at[2]}, v->run[run].begin + source - before, images->path[k]};
     }
     for (size_t p = 0; p < planes; p++)
         lists->plane[lists->planes++] = (sb_group_plane){images->near.facet[p].plane, images->near.facet[p].mirror};

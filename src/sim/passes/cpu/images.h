@@ -35,17 +35,18 @@ typedef struct sb_images_around {
     uint32_t source[SB_AROUND_MAX + SB_HIT_SPARE];
     uint32_t path[SB_AROUND_MAX + SB_HIT_SPARE];
     bool whole[SB_AROUND_MAX + SB_HIT_SPARE]; /* one reflection, with no edge near its paths */
-    /* Of an image by one reflection: the original's distance before the facet, the edge of the facet that it is
-       farthest beyond or nearest to, and where its positions about the facet's edges begin; known when needed. */
+    /* Of an image by one reflection: the original's distance before the facet; and, known when needed, the edge of the
+       facet that it is farthest beyond or nearest to, and where its positions about the facet's edges begin. */
     float above[SB_AROUND_MAX + SB_HIT_SPARE];
     uint32_t edge[SB_AROUND_MAX + SB_HIT_SPARE], angles[SB_AROUND_MAX + SB_HIT_SPARE];
     size_t angle_count;
     sb_half_angle angle[SB_HALF_ANGLES_MAX];
     uint64_t behind[SB_AROUND_MAX + SB_HIT_SPARE]; /* of a record, unless near.simple: the facets that it is behind */
     uint64_t parts;                                /* the facets with water on both sides */
-    uint32_t number[SB_AROUND_MAX + SB_HIT_SPARE]; /* of the images that lists refer to */
-    sb_standing standing;                          /* of the present particle */
-    size_t slopes;                                 /* of the present particle; above SB_WEIGHT_SLOPES_MAX: too many */
+    /* The images that lists refer to, in the order of their first use, and the number of each; UINT32_MAX: none. */
+    uint32_t used, listed[SB_AROUND_MAX + SB_HIT_SPARE], number[SB_AROUND_MAX + SB_HIT_SPARE];
+    sb_standing standing; /* of the present particle */
+    size_t slopes;        /* of the present particle; above SB_WEIGHT_SLOPES_MAX: too many */
     sb_weight_slope slope[SB_WEIGHT_SLOPES_MAX];
 } sb_images_around;
 
@@ -58,8 +59,10 @@ bool sb_images_gather(const sb_sim *sim, const sb_group *group, sb_vicinity *v, 
 void sb_images_weigh(const sb_sim *sim, const sb_vicinity *v, sb_images_around *images, sb_f4 self, sb_hits *hits);
 void sb_images_weigh_direct(const sb_sim *sim, sb_images_around *images, sb_f4 self, sb_hits *hits);
 
-/* Appends those images that the lists of the group refer to, and their planes, and numbers the references anew. */
-void sb_list_images(const sb_sim *sim, sb_list_builder *lists, const sb_vicinity *v, sb_images_around *images,
-                    sb_group *group);
+/* Gives the hits of images the candidates that they have in lists, which refer only to images in use. */
+void sb_images_number(const sb_vicinity *v, sb_images_around *images, sb_hits *hits);
+
+/* Appends those images that the lists of the group refer to, and their planes. */
+void sb_list_images(sb_list_builder *lists, const sb_vicinity *v, sb_images_around *images, sb_group *group);
 
 #endif

@@ -1,5 +1,6 @@
 #include "sim/passes/cpu/path_weights.h"
 
+SB_MULTIVERSION
 uint32_t sb_about_edges(const sb_near *near, const sb_near_facet *f, sb_f4 at, float above, sb_half_angle *angle)
 {
     uint32_t edge = f->edge;
@@ -142,6 +143,7 @@ static bool blocked(const sb_weigher *w, sb_f4 a, sb_f4 b, size_t skip, size_t o
     return false;
 }
 
+SB_MULTIVERSION
 sb_weight sb_at_facet(const sb_weigher *w, size_t a, sb_other_end j, bool *meets)
 {
     const sb_near_facet *f = &w->near->facet[a];
@@ -249,6 +251,7 @@ static float reflected(const sb_weigher *w, const size_t *by, int count, const s
     return !w->near->simple && blocked(w, here, at[0], last, SIZE_MAX) ? 0 : share;
 }
 
+SB_MULTIVERSION
 void sb_path_weight(const sb_weigher *w, const size_t *by, int count, sb_f4 source, sb_f4 image, sb_weight_parts *all)
 {
     size_t any[SB_REFLECTIONS_MAX], ordered[SB_REFLECTIONS_MAX];

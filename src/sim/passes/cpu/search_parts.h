@@ -18,12 +18,24 @@ typedef struct sb_surroundings {
     uint32_t index[SB_WALLS_AROUND_MAX];
 } sb_surroundings;
 
+/* The present particle's image by one reflection at a facet, and sums over its hits of such images: of the slopes times
+   the originals' distances before the facet, and times their squares. */
+typedef struct sb_own_image {
+    sb_f4 place;
+    float once, twice;
+} sb_own_image;
+
 typedef struct sb_searcher {
     sb_vicinity vicinity;
     sb_surroundings wall;
     sb_hits hits, reflected;
     sb_images_around images;
-    sb_f4 force[SB_HITS_MAX]; /* on each hit, by the pressure of the present particle */
+    /* On each hit, by the pressure of the present particle; aligned like the hits. */
+    float force_x[SB_HITS_MAX + SB_HIT_SPARE], force_y[SB_HITS_MAX + SB_HIT_SPARE], force_z[SB_HITS_MAX + SB_HIT_SPARE];
+    uint32_t original[SB_HITS_MAX + SB_HIT_SPARE]; /* of each hit of images: the hit of the original */
+    size_t own_images; /* hits of images of the particle itself, before weights: own_image[] */
+    uint32_t own_image[SB_HITS_MAX + SB_HIT_SPARE];
+    sb_own_image own[SB_NEAR_MAX];                               /* by facet */
     size_t edges, edge_own, edge_of[SB_HITS_MAX + SB_HIT_SPARE]; /* pairs at edges of the present particle: the first,
                                                                     and those with itself and with each hit */
     uint32_t hit_of[SB_AROUND_MAX]; /* candidate -> its hit; valid where that hit is this candidate */
@@ -65,6 +77,19 @@ SB_INLINE void sb_search_hits(sb_searcher *w, sb_hits *h, const sb_candidates *o
 /* Rounds slopes of the kernel to storable roots, and replaces them by the squares of these roots, so that all uses of a
    pair have the same number. */
 void sb_round_slopes(float *restrict slope, float *restrict root, size_t count, float to_units);
+
+/* Adds to the force on a hit by the pressure of the present particle. */
+SB_INLINE void sb_add_force(sb_searcher *w, uint32_t hit, sb_f4 force)
+{
+    w->force_x[hit] += force[0];
+    w->force_y[hit] += force[1];
+    w->force_z[hit] += force[2];
+}
+
+/* Appends the pairs at edges of a particle, and adds them and what repels it from its own images to its sums. direct:
+   of images.slope, those of hits of particles, which come first. */
+void sb_search_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, uint32_t self, size_t direct,
+                     sb_reflections *r);
 
 /* Finds the images around a particle, appends its pairs at edges and returns what images add to its sums. w->hits: its
    hits of particles, with their weights as roots and slopes unrounded; w->reflected receives those of images.

@@ -3,6 +3,7 @@
 #include "sim/passes/cpu/body_forces.h"
 #include "sim/passes/cpu/cpu.h"
 #include "sim/passes/cpu/eights.h"
+#include "sim/passes/cpu/reactions.h"
 #include "sim/passes/groups.h"
 #include "sim/terms/stress_correction.h"
 
@@ -53,26 +54,11 @@ static void find_strain(sb_sim *sim, const sb_group *group, const void *argument
     }
 }
 
-/* Whether any of the tensors that sb_around_with copied is not 0. In shallow water and beside walls all are 0. */
-SB_INLINE bool any_around(const sb_sim *sim, const sb_group *group, const sb_f4 *around)
-{
-    const uint32_t count = sb_around_count(sim, group);
-    sb_i4 bits = {0};
-    for (uint32_t k = 0; k < count; k++)
-        bits |= ((sb_i4)around[2 * k] & (sb_i4){0, 0, 0, -1}) | (sb_i4)around[2 * k + 1];
-    return (bits[0] | bits[1] | bits[2] | bits[3]) != 0;
-}
-
 /* The velocity after the correction. The pressure in its last lane does not change. */
-SB_MULTIVERSION
-static void correct(sb_sim *sim, const sb_group *group, const void *arguments)
+SB_INLINE void correct_with(sb_sim *sim, const sb_group *group, const sb_f4 *around, bool any)
 {
-    (void)arguments;
     const float dt = (float)sim->state.time_step;
-    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     sb_f4 *next = sim->work.corrected;
-    sb_around_tensors(sim, group, sim->work.stress, around);
-    const bool any = any_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
         next[i] = sim->state.velocity[i];
         if (!any) continue;
@@ -105,43 +91,67 @@ static void correct(sb_sim *sim, const sb_group *group, const void *arguments)
     }
 }
 
+SB_MULTIVERSION
+static void correct(sb_sim *sim, const sb_group *group, const void *arguments)
+{
+    (void)arguments;
+    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
+    const bool any = sb_around_tensors(sim, group, sim->work.stress, around);
+    correct_with(sim, group, around, any);
+}
+
 void sb_cpu_strain(sb_sim *sim)
 {
     sb_each_group(sim, find_strain, NULL);
 }
 
 /* Adds the reactions of walls to the correction of a group's particles by images. */
-static void push_walls(const sb_sim *sim, const sb_group *group, sb_body_forces *to)
+SB_INLINE void push_walls(const sb_sim *sim, const sb_group *group, const sb_f4 *around, sb_body_forces *to)
 {
-    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     const sb_lists *lists = &sim->work.pairs;
     const uint32_t records = sb_around_count(sim, group);
     const sb_group_plane *planes = sim->groups.plane + group->plane;
     sb_reactions reactions = {0};
-    sb_around_tensors(sim, group, sim->work.stress, around);
-    if (!any_around(sim, group, around)) return;
+    sb_stretch stretches[SB_AROUND_MAX];
+    sb_stretches_find(sim, group, around + 2 * (size_t)records, stretches);
     for (size_t i = group->first; i < group->end; i++) {
         const sb_f4 self = sb_in_group(sim, group, i), own = sim->work.stress[i];
         const sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
-        for (size_t k = 4 * (size_t)lists->direct[i]; k < 4 * (size_t)lists->count[i]; k++) {
-            const sb_four_pairs *four = &lists->four[lists->first[i] + k / 4];
-            if (four->slope[k % 4] == 0) continue;
-            const uint16_t place = four->place[k % 4];
-            const sb_f4 *other = sb_at_with(around, place), t = own + other[1];
-            const float root = (float)four->slope[k % 4], xx = self[3] + other[0][3];
-            const sb_f4 d = (self - other[0]) * sb_splat(root * root * lists->unit);
-            const sb_f4 a = {xx * d[0] + t[1] * d[1] + t[2] * d[2], t[1] * d[0] + t[0] * d[1] + t[3] * d[2],
-                             t[2] * d[0] + t[3] * d[1] - (xx + t[0]) * d[2], 0};
-            const sb_image image = sim->groups.image[group->image + place / SB_PLACE_STEP - records];
-            sb_reactions_reflected(&reactions, planes, image.path, -a);
+        sb_f4 through[SB_REACTIONS_MAX];
+        for (uint32_t p = 0; p < group->planes; p++) through[p] = sb_tensor_times(self, own, planes[p].plane);
+        const size_t first = lists->first[i];
+        for (size_t f = first + lists->direct[i]; f < first + lists->count[i]; f++) {
+            const sb_f4 slope = sb_slopes(&lists->four[f]) * sb_splat(lists->unit);
+            for (size_t k = 0; k < 4; k++) {
+                if (slope[k] == 0) continue;
+                const uint32_t image = lists->four[f].place[k] / SB_PLACE_STEP - records;
+                const sb_f4 *other = sb_at_with(around, lists->four[f].place[k]);
+                const sb_f4 d = (self - other[0]) * sb_splat(slope[k]);
+                const sb_stretch *s = &stretches[image];
+                if (s->plane != SB_PLANES_SEVERAL)
+                    sb_reaction(&reactions, s->plane, sb_sum3((through[s->plane] + s->through) * d));
+                else
+                    sb_reactions_reflected(&reactions, planes, sim->groups.image[group->image + image].path,
+                                           -sb_tensor_times(self + other[0], own + other[1], d));
+            }
         }
         sb_reactions_close(sim, planes, at, &reactions, to);
     }
     sb_body_forces_close(to);
 }
 
+/* The correction with its reactions. */
+SB_MULTIVERSION
+static void correct_reflected(sb_sim *sim, const sb_group *group, sb_body_forces *to)
+{
+    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
+    const bool any = sb_around_tensors(sim, group, sim->work.stress, around);
+    correct_with(sim, group, around, any);
+    if (any && group->images > 0) push_walls(sim, group, around, to);
+}
+
 /* The same for all groups. False: a thread has no memory for its sums. */
-static bool push_all_walls(sb_sim *sim, sb_body_forces *total)
+static bool correct_all_reflected(sb_sim *sim, sb_body_forces *total)
 {
     const size_t groups = sim->groups.count, bodies = sim->model->body_count;
     bool enough = true;
@@ -151,7 +161,7 @@ static bool push_all_walls(sb_sim *sim, sb_body_forces *total)
         enough = sb_body_forces_create(&own, bodies) == 0;
 #pragma omp for schedule(dynamic, SB_GROUPS_AT_A_TIME)
         for (size_t g = 0; g < groups; g++)
-            if (enough && sim->groups.group[g].images > 0) push_walls(sim, &sim->groups.group[g], &own);
+            if (enough) correct_reflected(sim, &sim->groups.group[g], &own);
         if (enough) sb_sums_merge(total->all, own.all, bodies * SB_FORCE_VALUES);
         sb_body_forces_free(&own);
     }
@@ -160,12 +170,14 @@ static bool push_all_walls(sb_sim *sim, sb_body_forces *total)
 
 int sb_cpu_correct(sb_sim *sim)
 {
-    sb_each_group(sim, correct, NULL);
-    if (!sim->needs.images) return 0;
+    if (!sim->needs.images) {
+        sb_each_group(sim, correct, NULL);
+        return 0;
+    }
     const size_t values = sim->model->body_count * SB_FORCE_VALUES;
     sb_body_forces all;
     int status = sb_body_forces_create(&all, sim->model->body_count);
-    if (status == 0 && !push_all_walls(sim, &all)) status = -1;
+    if (status == 0 && !correct_all_reflected(sim, &all)) status = -1;
     if (status == 0) sim->exchange->sum(sim, all.all, values);
     for (size_t v = 0; v < values && status == 0; v++) sim->work.stress_force[v] = sb_exact_value(&all.all[v]);
     sb_body_forces_free(&all);

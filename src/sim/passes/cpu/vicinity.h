@@ -5,22 +5,16 @@
 #include "sim/passes/cpu/hits.h"
 #include "sim/search/around.h"
 
-/* Parts: fluid particles, then ghost particles beyond periodic sides; and images of both, by the cells of their
-   originals (passes/cpu/images.h), because an image is never nearer than its original. */
-enum {
-    SB_VICINITY_PARTS = 2,
-    SB_VICINITY_IMAGES = SB_VICINITY_PARTS, /* this part */
-    SB_VICINITY_CELLS = 64,
-    SB_VICINITY_ROWS = 9 * SB_VICINITY_PARTS
-};
+/* Parts: fluid particles, then ghost particles beyond periodic sides. Images of both follow (passes/cpu/images.h). */
+enum { SB_VICINITY_PARTS = 2, SB_VICINITY_CELLS = 64, SB_VICINITY_ROWS = 9 * SB_VICINITY_PARTS };
 _Static_assert((int)SB_AROUND_MAX <= (int)SB_CANDIDATES_MAX && (int)SB_VICINITY_ROWS <= (int)SB_CANDIDATE_RANGES_MAX,
                "capacity of the search for hits");
 
 typedef struct sb_vicinity {
-    uint32_t low[3], cells[3];                                    /* first cell along each axis, and how many */
-    size_t parts, count;                                          /* count above SB_AROUND_MAX: too many */
-    size_t images;                                                /* candidates [count, count + images) */
-    uint32_t start[SB_VICINITY_PARTS + 1][SB_VICINITY_CELLS + 1]; /* candidates of a cell: [start, next start) */
+    uint32_t low[3], cells[3];                                /* first cell along each axis, and how many */
+    size_t parts, count;                                      /* count above SB_AROUND_MAX: too many */
+    size_t images;                                            /* candidates [count, count + images) */
+    uint32_t start[SB_VICINITY_PARTS][SB_VICINITY_CELLS + 1]; /* candidates of a cell: [start, next start) */
     size_t runs;
     sb_run run[SB_VICINITY_PARTS * SB_VICINITY_CELLS]; /* the same without images, as entries of sim->state.position */
     float x[SB_AROUND_MAX + SB_HIT_SPARE], y[SB_AROUND_MAX + SB_HIT_SPARE], z[SB_AROUND_MAX + SB_HIT_SPARE];

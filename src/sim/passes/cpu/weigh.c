@@ -1,5 +1,6 @@
 /* Weights of the hits of one particle. Most are plainly 0 or 1. */
 #include "sim/passes/cpu/path_weights.h"
+#include "sim/passes/cpu/soft_edges.h"
 
 /* Sets the weight of a hit, and notes how it changes. */
 static void set_weight(sb_images_around *images, const sb_weight_parts *all, sb_hits *hits, size_t k, bool direct)
@@ -41,26 +42,6 @@ SB_INLINE bool same_sides(const sb_images_around *images, const sb_weigher *w, u
     return w->near->count <= SB_SIDE_BITS && w->at->behind == images->behind[images->source[image]];
 }
 
-/* Whether the weight of a reflection at a facet is plainly 0 or, between both ends before the facet, 1: most are. */
-SB_INLINE bool plain(const sb_weigher *w, size_t a, float hj, const sb_half_angle *angle, float *part)
-{
-    const sb_near_facet *f = &w->near->facet[a];
-    const float hi = w->at->above[a], end = 0.5f * SB_TRANSITION_ENDS * w->transition;
-    const sb_half_angle *own = w->at->angle + f->edge;
-    if (hi * hj <= 0) return false;
-    *part = 0;
-    if (hi < 0 && !f->both) return true;
-    bool inner = true;
-    for (uint32_t k = 0; k < f->edges; k++) {
-        const float t = own[k].c * angle[k].c - own[k].s * angle[k].s;
-        const bool sharp = w->near->edges[f->edge + k].bend == SB_BEND_CONCAVE;
-        if (t < (sharp ? 0 : -end)) return true;
-        inner &= sharp || t > end;
-    }
-    *part = 1;
-    return inner;
-}
-
 /* Makes room for positions about edges. */
 static size_t forget_angles(sb_images_around *images)
 {
@@ -76,60 +57,117 @@ SB_INLINE sb_other_end other_end(sb_images_around *of, size_t image, size_t a, s
     if (of->angles[image] == SB_ANGLES_UNKNOWN) {
         if (of->angle_count + f->edges > SB_HALF_ANGLES_MAX) of->angle_count = forget_angles(of);
         of->angles[image] = (uint32_t)of->angle_count;
-        of->above[image] = sb_before_facet(f, source);
         of->edge[image] = sb_about_edges(near, f, source, of->above[image], of->angle + of->angle_count);
         of->angle_count += f->edges;
     }
     return (sb_other_end){of->above[image], of->edge[image], of->angle + of->angles[image]};
 }
 
-/* Weight of a path by one reflection at facet a. */
-static void weigh_single(sb_images_around *images, const sb_weigher *w, uint32_t image, size_t a, sb_f4 source,
-                         sb_f4 place, sb_hits *hits, size_t k)
+/* Whether the weight of a reflection at facet a between two ends before it is plainly 0 or 1, or that of one edge,
+   which is then noted: most are. apart: no facet hides the path; else only 0 is plain. */
+SB_INLINE bool plain(const sb_weigher *w, size_t a, const sb_half_angle *other, bool apart, sb_hits *hits, size_t k,
+                     sb_soft_edges *soft)
 {
-    const sb_near *near = w->near;
-    const bool apart = near->simple || (!near->oblique && same_sides(images, w, image));
-    bool known = images->whole[image] && w->at->above[a] > 0;
-    if (known && apart) return;
-    const sb_other_end j = other_end(images, image, a, source);
-    if (!known) known = plain(w, a, j.above, j.angle, &hits->root[k]);
-    if (known && (hits->root[k] == 0 || apart)) return;
+    const sb_near_facet *f = &w->near->facet[a];
+    const sb_near_edge *edge = w->near->edges + f->edge;
+    const sb_half_angle *own = w->at->angle + f->edge;
+    const float end = 0.5f * SB_TRANSITION_ENDS * w->transition;
+    uint32_t in_transition = 0, which = 0;
+    for (uint32_t e = 0; e < f->edges; e++) {
+        const float t = own[e].c * other[e].c - own[e].s * other[e].s;
+        const bool sharp = edge[e].bend == SB_BEND_CONCAVE;
+        if (t < (sharp ? 0 : -end)) {
+            hits->root[k] = 0;
+            return true;
+        }
+        if (sharp || t > end) continue;
+        in_transition++;
+        which = e;
+    }
+    if (!apart) return false;
+    return in_transition == 0 ||
+           (in_transition == 1 && sb_soft_edges_add(soft, k, a, f->edge + which, own[which], other[which]));
+}
+
+/* Sets the weights of hits at noted edges, and notes how they change. */
+static void set_soft(sb_images_around *images, const sb_weigher *w, sb_soft_edges *soft, sb_hits *hits)
+{
+    sb_soft_edges_weigh(soft, w->transition);
+    for (size_t n = 0; n < soft->count; n++) {
+        const float value = soft->value[n];
+        const uint32_t k = soft->hit[n], a = soft->facet[n];
+        hits->root[k] = value < SB_WEIGHT_LEAST ? 0 : value;
+        if (value < SB_WEIGHT_LEAST || value == 1) continue;
+        const sb_f4 keep = {1, 1, 1, 0};
+        const sb_f4 inward = w->near->edges[soft->edge[n]].inward * keep, normal = w->near->facet[a].plane * keep;
+        if (images->slopes++ >= SB_WEIGHT_SLOPES_MAX) return;
+        images->slope[images->slopes - 1] =
+            (sb_weight_slope){inward * sb_splat(soft->own_o[n]) + normal * sb_splat(soft->own_h[n]),
+                              inward * sb_splat(soft->other_o[n]) + normal * sb_splat(soft->other_h[n]), k, a, false};
+    }
+}
+
+/* Weight of a path by one reflection at facet a. apart: no facet hides it. */
+static void weigh_single(sb_images_around *images, const sb_weigher *w, uint32_t image, size_t a, sb_f4 source,
+                         bool apart, sb_hits *hits, size_t k)
+{
+    const sb_f4 place = w->self - (sb_f4){hits->x[k], hits->y[k], hits->z[k], 0};
     bool meets = true;
     sb_weight_parts all = {.value = 1};
-    sb_take_part(&all, a, sb_at_facet(w, a, j, &meets));
+    sb_take_part(&all, a, sb_at_facet(w, a, other_end(images, image, a, source), &meets));
     if (all.value >= SB_WEIGHT_LEAST && !apart) sb_finish_path(w, &a, 1, source, place, meets, &all);
     set_weight(images, &all, hits, k, false);
 }
 
+/* Weight of a path by several reflections. */
+static void weigh_several(sb_images_around *images, const sb_weigher *w, uint32_t path, sb_f4 source, sb_hits *hits,
+                          size_t k)
+{
+    const sb_f4 place = w->self - (sb_f4){hits->x[k], hits->y[k], hits->z[k], 0};
+    sb_weight_parts all;
+    size_t by[SB_REFLECTIONS_MAX];
+    int count = 0;
+    for (uint32_t rest = path; rest; rest >>= SB_REFLECTION_BITS) by[count++] = (rest & SB_REFLECTION_MASK) - 1;
+    sb_path_weight(w, by, count, source, place, &all);
+    set_weight(images, &all, hits, k, false);
+}
+
+SB_MULTIVERSION
 void sb_images_weigh(const sb_sim *sim, const sb_vicinity *v, sb_images_around *images, sb_f4 self, sb_hits *hits)
 {
     const sb_near *near = &images->near;
     if (near->simple && near->edge_count == 0) return;
     const sb_weigher w = weigher_of(sim, images, self); /* it stands where weigh_direct has put it */
+    sb_soft_edges soft;
+    soft.count = 0;
     for (size_t k = 0; k < hits->count; k++) {
         if (hits->root[k] == 0) continue;
         const uint32_t image = hits->candidate[k] - (uint32_t)v->count, path = images->path[image];
-        if (near->simple && images->whole[image] && w.at->above[path - 1] > 0) continue; /* most */
-        const sb_f4 place = self - (sb_f4){hits->x[k], hits->y[k], hits->z[k], 0};
-        const sb_f4 source = v->place[images->source[image]];
-        if (path <= SB_REFLECTION_MASK) {
-            weigh_single(images, &w, image, path - 1, source, place, hits, k);
+        const uint32_t from = images->source[image];
+        if (path > SB_REFLECTION_MASK) {
+            weigh_several(images, &w, path, v->place[from], hits, k);
             continue;
         }
-        sb_weight_parts all;
-        size_t by[SB_REFLECTIONS_MAX];
-        int count = 0;
-        for (uint32_t rest = path; rest; rest >>= SB_REFLECTION_BITS) by[count++] = (rest & SB_REFLECTION_MASK) - 1;
-        sb_path_weight(&w, by, count, source, place, &all);
-        set_weight(images, &all, hits, k, false);
+        const bool apart = near->simple || (!near->oblique && same_sides(images, &w, image));
+        const float hi = w.at->above[path - 1], hj = images->above[image];
+        if (apart && images->whole[image] && hi > 0) continue;
+        if (hi > 0 && hj > 0 &&
+            plain(&w, path - 1, other_end(images, image, path - 1, v->place[from]).angle, apart, hits, k, &soft))
+            continue;
+        if (hi * hj > 0 && hi < 0 && !near->facet[path - 1].both)
+            hits->root[k] = 0;
+        else
+            weigh_single(images, &w, image, path - 1, v->place[from], apart, hits, k);
     }
+    set_soft(images, &w, &soft, hits);
 }
 
+SB_MULTIVERSION
 void sb_images_weigh_direct(const sb_sim *sim, sb_images_around *images, sb_f4 self, sb_hits *hits)
 {
     const sb_near *near = &images->near;
     images->slopes = 0;
-    for (size_t k = 0; k < hits->count; k++) hits->root[k] = 1;
+    for (size_t k = 0; k < hits->padded; k++) hits->root[k] = 1;
     if (near->simple && near->edge_count == 0) return;
     const sb_weigher w = weigher_of(sim, images, self);
     stand(&w);

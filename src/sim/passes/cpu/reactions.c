@@ -1,0 +1,73 @@
+#include "sim/passes/cpu/reactions.h"
+
+#include "sim/walls/mirrors.h"
+
+void sb_pulls_find(const sb_sim *sim, const sb_group *group, sb_pull *pulls)
+{
+    const sb_group_plane *planes = sim->groups.plane + group->plane;
+    const float hydrostatic = sb_hydrostatic(sim);
+    for (uint32_t k = 0; k < group->images; k++) {
+        const sb_image *image = &sim->groups.image[group->image + k];
+        const sb_f4 from = sb_offset(sim->state.position[image->from], group->corner);
+        const sb_f4 plane = sb_path_plane(planes, image->path);
+        pulls[k].q = sim->work.unknown[sb_entry_owner(sim, image->from)] + hydrostatic * (from[2] - image->at[2]);
+        pulls[k].above = sb_sum3(plane * from) - plane[3];
+        pulls[k].plane = image->path > SB_REFLECTION_MASK ? SB_PLANES_SEVERAL : image->path - 1;
+    }
+}
+
+/* Adds a pair with an image by several reflections. weight: its slope, 1/s^2 for an offset in quanta and q. */
+static void react_several(const sb_sim *sim, const sb_group *group, const sb_image *image, float slope, size_t i,
+                          sb_reactions *reactions)
+{
+    const sb_group_plane *planes = sim->groups.plane + group->plane;
+    const sb_f4 self = sb_offset(sim->state.position[i], group->corner);
+    const sb_f4 from = sb_offset(sim->state.position[image->from], group->corner);
+    const sb_f4 place = {image->at[0], image->at[1], image->at[2], 0};
+    const float q = sim->work.unknown[i] + sim->work.unknown[sb_entry_owner(sim, image->from)];
+    const sb_f4 pull = (self - place) * sb_splat(-slope);
+    sb_reactions_reflected(reactions, planes, image->path, pull * sb_splat(q));
+    sb_reactions_normal(reactions, planes, image->path, pull * sb_splat(sb_hydrostatic(sim) * (from[2] - place[2])));
+}
+
+/* The force of a pair with an image by one reflection is along the plane's normal the sum of both ends' distances
+   before the plane, times a factor. */
+static void react_reflected(const sb_sim *sim, const sb_group *group, uint32_t records, const sb_pull *pulls, size_t i,
+                            sb_reactions *reactions)
+{
+    const sb_lists *lists = &sim->work.pairs;
+    const sb_group_plane *planes = sim->groups.plane + group->plane;
+    const sb_f4 self = sb_offset(sim->state.position[i], group->corner);
+    const float own = sim->work.unknown[i];
+    float above[SB_REACTIONS_MAX];
+    for (uint32_t p = 0; p < group->planes; p++) above[p] = sb_sum3(planes[p].plane * self) - planes[p].plane[3];
+    const size_t first = lists->first[i];
+    for (size_t f = first + lists->direct[i]; f < first + lists->count[i]; f++) {
+        const sb_f4 slope = sb_slopes(&lists->four[f]) * sb_splat(lists->unit);
+        for (size_t k = 0; k < 4; k++) {
+            if (slope[k] == 0) continue;
+            const uint32_t image = lists->four[f].place[k] / SB_PLACE_STEP - records;
+            const sb_pull *pull = &pulls[image];
+            if (pull->plane != SB_PLANES_SEVERAL)
+                sb_reaction(reactions, pull->plane, slope[k] * (own + pull->q) * (above[pull->plane] + pull->above));
+            else
+                react_several(sim, group, &sim->groups.image[group->image + image], slope[k], i, reactions);
+        }
+    }
+}
+
+void sb_react_images(const sb_sim *sim, const sb_group *group, uint32_t records, const sb_pull *pulls, size_t i,
+                     sb_reactions *reactions, sb_body_forces *to)
+{
+    const double mass = (double)sim->constant.mass;
+    const sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
+    react_reflected(sim, group, records, pulls, i, reactions);
+    sb_reactions_close(sim, sim->groups.plane + group->plane, at, reactions, to);
+    for (uint32_t k = 0; k < sim->work.edge_pairs.count[i]; k++) {
+        const sb_edge_pair *e = &sim->work.edge_pairs.pair[sim->work.edge_pairs.first[i] + k];
+        const double q = (double)sim->work.unknown[i] + (double)sim->work.unknown[sb_entry_owner(sim, e->entry)];
+        const sb_vec3 force =
+            sb_vec(mass * q * (double)e->own[0], mass * q * (double)e->own[1], mass * q * (double)e->own[2]);
+        sb_body_forces_of_facet(sim, to, e->mirror, at, force, (sb_vec3){0});
+    }
+}
