@@ -44,8 +44,7 @@ static bool gather(const sb_sim *sim, size_t c, cell_sum around[AROUND])
         if (dy < -layers || dy > layers) continue;
         const uint64_t code = sim->cells.code[c] + sb_cell_step(dx, dy, dz);
         around[k] = sum_of(sim, &sim->cells, code, 0);
-        if (sim->ghosts.count > 0)
-            around[k] = plus(around[k], sum_of(sim, &sim->ghosts.cells, code, sim->cells.count));
+        if (sim->ghosts.count > 0) around[k] = plus(around[k], sum_of(sim, &sim->ghosts.cells, code, sim->cells.count));
         bits |= (sb_i4)around[k].rest | ((sb_i4)around[k].more & (sb_i4){-1, 0, 0, 0});
     }
     return (bits[0] | bits[1] | bits[2] | bits[3]) != 0;

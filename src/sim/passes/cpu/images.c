@@ -5,9 +5,6 @@
 
 #include <math.h>
 
-/* In spacings: water this far behind a facet counts as behind it. */
-static const float BEHIND = 0.1f;
-
 typedef struct gatherer {
     sb_vicinity *v;
     sb_near *near;
@@ -152,14 +149,15 @@ static void reflect_candidates(gatherer *g)
 }
 
 /* Which facets have water on both sides near the group, and, if any have, on which sides of all facets each record
-   is. margin: distance behind a facet that counts. */
-static void find_parts(const gatherer *g, float margin)
+   is. Each group that sees a pair across a facet finds water on both of its sides, so that the pair has the same weight
+   in all of them. */
+static void find_parts(const gatherer *g)
 {
     sb_near *near = g->near;
     g->images->parts = 0;
     for (size_t a = 0; a < near->count; a++) {
         sb_near_facet *f = &near->facet[a];
-        f->parts = g->sources->highest[a] > margin && g->sources->lowest[a] < -margin && (f->edges > 0 || f->both);
+        f->parts = g->sources->highest[a] > 0 && g->sources->lowest[a] < 0 && (f->edges > 0 || f->both);
         near->simple &= !f->parts;
         if (a < SB_SIDE_BITS) g->images->parts |= (uint64_t)f->parts << a;
     }
@@ -174,7 +172,7 @@ static void find_parts(const gatherer *g, float margin)
 }
 
 /* Removes the concave edges that no water near the group's box is beyond: it then sees no edge. */
-static void drop_edges(const sb_sim *sim, const sb_vicinity *v, const sb_box *box, float margin, sb_near *near)
+static void drop_edges(const sb_sim *sim, const sb_vicinity *v, const sb_box *box, sb_near *near)
 {
     const float support = sim->constant.support / (float)sim->space.quantum;
     uint32_t kept = 0;
@@ -186,7 +184,7 @@ static void drop_edges(const sb_sim *sim, const sb_vicinity *v, const sb_box *bo
             const sb_near_edge e = near->edges[k];
             bool counts = e.bend != SB_BEND_CONCAVE;
             for (size_t c = 0; c < v->count && !counts; c++)
-                counts = sb_within_edge(&e, v->place[c]) < -margin && within(box, support, v->place[c]);
+                counts = sb_within_edge(&e, v->place[c]) < 0 && within(box, support, v->place[c]);
             if (counts) near->edges[kept++] = e;
         }
         f->edges = kept - f->edge;
@@ -206,13 +204,12 @@ bool sb_images_gather(const sb_sim *sim, const sb_group *group, sb_vicinity *v, 
     sb_mirrors_near(sim, group, low, high, near);
     if (near->full) return false;
     if (near->count == 0) return true;
-    const float margin = BEHIND * sim->constant.spacing / (float)sim->space.quantum;
-    drop_edges(sim, v, &(sb_box){{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}, margin, near);
+    drop_edges(sim, v, &(sb_box){{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}, near);
     gatherer g = {v, near, images, &images->cull, &images->sources, false};
     sb_cull_begin(sim, near, low, high, g.cull);
     for (size_t a = 0; a < near->count; a++) g.sources->lowest[a] = INFINITY, g.sources->highest[a] = -INFINITY;
     reflect_candidates(&g);
-    find_parts(&g, margin);
+    find_parts(&g);
     return !g.full;
 }
 

@@ -67,8 +67,40 @@ static sb_f4 meeting(const sb_weigher *w, const size_t *by, int count, sb_f4 at,
     return place;
 }
 
-/* Part of the path by reflections at facets by[], unfolded to a straight line from the particle to `at`, that facet f
-   does not hide. */
+/* The edge after the reflections of the set `images` of by[]. Returns false if one of them leaves it where it is. */
+static bool reflect_edge(const sb_weigher *w, const size_t *by, int count, int images, const sb_near_edge *e,
+                         sb_near_edge *out)
+{
+    *out = *e;
+    for (int m = 0; m < count; m++) {
+        const sb_f4 plane = w->near->facet[by[m]].plane;
+        const float along = sb_sum3(plane * out->inward);
+        if (!(images >> m & 1)) continue;
+        if (fabsf(along) < 1e-3f) return false;
+        out->inward -= plane * sb_splat(2 * along);
+    }
+    return true;
+}
+
+/* Multiplies the hidden part of a path by that within one edge. hi, hj, normal: of the facet. */
+static void past_edge_of(const sb_weigher *w, const sb_near_edge *e, sb_f4 normal, float hi, float hj, sb_f4 at,
+                         sb_weight *hidden)
+{
+    const sb_f4 inward = e->inward * (sb_f4){1, 1, 1, 0};
+    const float oi = sb_within_edge(e, w->self), oj = sb_within_edge(e, at);
+    float di[2] = {0}, dj[2] = {0};
+    bool before = true;
+    const float past = e->bend == SB_BEND_CONVEX
+                           ? past_edge(sb_half_angle_of(oi, fabsf(hi)), sb_half_angle_of(oj, -fabsf(hj)), 1,
+                                       w->transition, di, dj, &before)
+                           : oi * fabsf(hj) + oj * fabsf(hi) < 0;
+    multiply(hidden, 1 - past, -(inward * sb_splat(di[0]) + normal * sb_splat(di[1])),
+             -(inward * sb_splat(dj[0]) + normal * sb_splat(dj[1])));
+}
+
+/* Part of the path by reflections at facets by[] at right angles to facet f, unfolded to a straight line from the
+   particle to `at`, that f does not hide. Unfolded, f and its images are one facet: it has the edges of f, their
+   images, and no concave edge between them. */
 static sb_weight past_facet(const sb_weigher *w, const size_t *by, int count, const sb_near_facet *f, sb_f4 at)
 {
     const float hi = sb_before_facet(f, w->self), hj = sb_before_facet(f, at);
@@ -81,28 +113,13 @@ static sb_weight past_facet(const sb_weigher *w, const size_t *by, int count, co
             if (sb_within_edge(e, meeting(w, by, count, at, hi, hj)) < 0) return WHOLE;
             continue;
         }
-        const sb_f4 inward = e->inward * (sb_f4){1, 1, 1, 0};
-        const float oi = sb_within_edge(e, w->self), oj = sb_within_edge(e, at);
-        float di[2] = {0}, dj[2] = {0};
-        bool before = true;
-        const float past = e->bend == SB_BEND_CONVEX
-                               ? past_edge(sb_half_angle_of(oi, fabsf(hi)), sb_half_angle_of(oj, -fabsf(hj)), 1,
-                                           w->transition, di, dj, &before)
-                               : oi * fabsf(hj) + oj * fabsf(hi) < 0;
-        multiply(&hidden, 1 - past, -(inward * sb_splat(di[0]) + normal * sb_splat(di[1])),
-                 -(inward * sb_splat(dj[0]) + normal * sb_splat(dj[1])));
+        for (int images = 0; images < 1 << count; images++) {
+            sb_near_edge seen;
+            if (reflect_edge(w, by, count, images, e, &seen)) past_edge_of(w, &seen, normal, hi, hj, at, &hidden);
+        }
     }
+    for (int m = 0; m < count; m++) hidden.other = sb_reflect_vector(w->near->facet[by[m]].plane, hidden.other);
     return (sb_weight){1 - hidden.value, -hidden.own, -hidden.other};
-}
-
-/* Whether reflection at facet a leaves the near edges of facet g where they are. */
-static bool keeps(const sb_near *near, size_t a, const sb_near_facet *g)
-{
-    bool kept = true;
-    for (uint32_t k = g->edge; k < g->edge + g->edges; k++)
-        kept &= near->edges[k].bend == SB_BEND_CONCAVE ||
-                fabsf(sb_sum3(near->edges[k].inward * near->facet[a].plane)) < 1e-3f;
-    return kept;
 }
 
 sb_weight sb_past_facets(const sb_weigher *w, const size_t *by, int count, sb_f4 at, size_t *by_facet)
@@ -113,7 +130,7 @@ sb_weight sb_past_facets(const sb_weigher *w, const size_t *by, int count, sb_f4
         const sb_near_facet *g = &w->near->facet[k];
         bool kept = g->parts;
         for (int m = 0; m < count && kept; m++)
-            kept = k != by[m] && sb_facets_square(w->near, by[m], k) && keeps(w->near, by[m], g);
+            kept = k != by[m] && sb_facets_square(w->near, by[m], k) && w->near->meets[by[m]][k];
         if (!kept) continue;
         const sb_weight past = past_facet(w, by, count, g, at);
         if (past.value >= least.value) continue;
@@ -181,8 +198,7 @@ static bool leg_blocked(const sb_weigher *w, size_t a, sb_f4 from, sb_f4 to)
 {
     for (size_t k = 0; k < w->near->count; k++) {
         const sb_near_facet *g = &w->near->facet[k];
-        const bool past = g->parts && keeps(w->near, a, g); /* sb_past_facets has it */
-        if (k == a || (sb_facets_square(w->near, a, k) && (past || !w->near->meets[a][k]))) continue;
+        if (k == a || (sb_facets_square(w->near, a, k) && (g->parts || !w->near->meets[a][k]))) continue;
         const float s = sb_before_facet(g, from), t = sb_before_facet(g, to);
         if (!((s > w->eps && t < -w->eps) || (s < -w->eps && t > w->eps))) continue;
         if (inside(w->near, g, from + (to - from) * sb_splat(s / (s - t)))) return true;
