@@ -126,13 +126,16 @@ static int compare(const void *a, const void *b)
     return (x->mirror > y->mirror) - (x->mirror < y->mirror);
 }
 
-/* Adds a facet and its images beyond periodic sides. */
+/* Adds a facet and its images beyond periodic sides. A facet without edges has no end: shifts within its plane lead to
+   itself. */
 static int add_all(sb_sim *sim, const sb_facets *facets, const sb_facet *f)
 {
     const double period[3] = {(double)sim->space.period[0] * sim->space.quantum,
                               (double)sim->space.period[1] * sim->space.quantum,
                               (double)sim->space.period[2] * sim->space.quantum};
-    const int along[3] = {period[0] > 0, period[1] > 0, period[2] > 0};
+    const double normal[3] = {f->normal.x, f->normal.y, f->normal.z};
+    int along[3];
+    for (int axis = 0; axis < 3; axis++) along[axis] = period[axis] > 0 && (f->edges > 0 || normal[axis] != 0);
     for (int z = -along[2]; z <= along[2]; z++)
         for (int y = -along[1]; y <= along[1]; y++)
             for (int x = -along[0]; x <= along[0]; x++)
