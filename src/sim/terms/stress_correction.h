@@ -30,6 +30,33 @@ static inline float sb_stress_share(const sb_sim *sim, float whole, float t)
     return part >= 1 ? whole : part > 0 ? whole * part : 0;
 }
 
+/* With images: the same for films. Drops on walls have less. */
+static const float SB_STRESS_FILM_LEAST = 0.3f, SB_STRESS_FILM_WHOLE = 0.45f;
+
+/* Sums over neighbours of the slope times the offset, the offset's square, and 1. */
+typedef struct sb_stress_sums {
+    float x, y, z, trace, weight;
+} sb_stress_sums;
+
+static inline float sb_stress_between_0_and_1(float value)
+{
+    return value >= 1 ? 1 : value > 0 ? value : 0;
+}
+
+/* The c of a particle of a film, with images (docs/method.md, M15f). all: over all neighbours; images: over those that
+   are images. Beside a wall at right angles to the surface no more of the gradient is due to images than of the
+   neighbours: `below` is 0. */
+static inline float sb_stress_film_share(int dimension, float whole, float t, sb_stress_sums all, sb_stress_sums images)
+{
+    const float square = all.x * all.x + all.y * all.y + all.z * all.z, straight = 1 - images.weight / all.weight;
+    if (!(t > SB_STRESS_FILM_LEAST && square > 0 && straight > 0)) return 0;
+    const float gradient = (images.x * all.x + images.y * all.y + images.z * all.z) / square;
+    const float below = sb_stress_between_0_and_1(2 * (1 - (1 - gradient) / straight));
+    const float part = sb_stress_between_0_and_1((float)(dimension - 1) * images.trace / all.trace);
+    const float drop = (t - SB_STRESS_FILM_LEAST) / (SB_STRESS_FILM_WHOLE - SB_STRESS_FILM_LEAST);
+    return whole * part * below * below * sb_stress_between_0_and_1(drop);
+}
+
 /* Adds the correction to the velocities of one step, from the pressures of the last step and the present neighbour
    lists. Momentum is conserved. The work is entered in the ledger. Fails, without changing velocities, if a particle
    would be too fast. */

@@ -30,6 +30,40 @@ SB_INLINE moments gather(const sb_sim *sim, const sb_group *group, const sb_f4 *
     return (moments){p[0], p[1], p[2], p[3], q[0], q[1]};
 }
 
+/* Over the groups of four [from, to) of the list of particle i. */
+static sb_stress_sums sum_slopes(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i, size_t from,
+                                 size_t to)
+{
+    const sb_f4 self = sb_in_group(sim, group, i);
+    const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i];
+    sb_f4 sum = {0};
+    float trace = 0;
+    for (size_t k = from; k < to; k++) {
+        const sb_f4 slope = sb_slopes(&four[k]);
+        for (size_t lane = 0; lane < 4; lane++) {
+            const sb_f4 d = self - *sb_at(around, four[k].place[lane]);
+            sum += (sb_f4){d[0], d[1], d[2], 1} * sb_splat(slope[lane]);
+            trace += sb_sum3(d * d) * slope[lane];
+        }
+    }
+    return (sb_stress_sums){sum[0], sum[1], sum[2], trace, sum[3]};
+}
+
+/* The c of particle i, with images. */
+static float share_by_images(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i, float whole,
+                             float t)
+{
+    const float share = sb_stress_share(sim, whole, t);
+    const size_t direct = sb_direct(&sim->work.pairs, i), count = sim->work.pairs.count[i];
+    if (share >= whole || direct == count) return share;
+    const sb_stress_sums images = sum_slopes(sim, group, around, i, direct, count);
+    sb_stress_sums all = sum_slopes(sim, group, around, i, 0, direct);
+    all.x += images.x, all.y += images.y, all.z += images.z;
+    all.trace += images.trace, all.weight += images.weight;
+    const float film = sb_stress_film_share(sim->constant.dimension, whole, t, all, images);
+    return film > share ? film : share;
+}
+
 /* E_i as strain_xx, and yy, xy, xz, yz as strain. */
 SB_MULTIVERSION
 static void find_strain(sb_sim *sim, const sb_group *group, const void *arguments)
@@ -47,7 +81,10 @@ static void find_strain(sb_sim *sim, const sb_group *group, const void *argument
         if (!sim->needs.images && sim->work.wall_pairs.count[i] > 0) continue;
         const moments m = gather(sim, group, around, i);
         const float mean = part * (m.xx + m.yy + m.zz);
-        const float share = sb_stress_share(sim, whole, unit * mean), off = -share / mean;
+        const float t = unit * mean;
+        const float share =
+            sim->needs.images ? share_by_images(sim, group, around, i, whole, t) : sb_stress_share(sim, whole, t);
+        const float off = -share / mean;
         if (!(share > 0)) continue;
         sim->work.strain_xx[i] = share + off * m.xx;
         sim->work.strain[i] = (sb_f4){flat ? 0 : share + off * m.yy, off * m.xy, off * m.xz, off * m.yz};

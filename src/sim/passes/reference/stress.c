@@ -3,10 +3,32 @@
 #include "sim/passes/reference/reference.h"
 #include "sim/terms/stress_correction.h"
 
+#include <math.h>
 #include <string.h>
 
 /* A symmetric tensor without trace: xx, yy, xy, xz, yz. */
 enum { XX, YY, XY, XZ, YZ, PARTS };
+
+/* The c of particle i. */
+static float share_of(const sb_sim *sim, const sb_indices *around, size_t i, float whole, float t)
+{
+    const float share = sb_stress_share(sim, whole, t);
+    if (!sim->needs.images) return share;
+    double all[5] = {0}, images[5] = {0};
+    for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
+        const sb_one_pair p = sb_pair_at(sim, around, i, k);
+        const double part[5] = {p.slope * p.offset.x, p.slope * p.offset.y, p.slope * p.offset.z,
+                                p.slope * sb_dot(p.offset, p.offset), p.slope};
+        for (int c = 0; c < 5; c++) {
+            all[c] += part[c];
+            if (k >= sb_direct_count(sim, i)) images[c] += part[c];
+        }
+    }
+    const sb_stress_sums whole_sums = {(float)all[0], (float)all[1], (float)all[2], (float)all[3], (float)all[4]};
+    const sb_stress_sums image_sums = {(float)images[0], (float)images[1], (float)images[2], (float)images[3],
+                                       (float)images[4]};
+    return fmaxf(share, sb_stress_film_share(sim->constant.dimension, whole, t, whole_sums, image_sums));
+}
 
 static void strain_group(sb_sim *sim, const sb_group *group, const void *arguments)
 {
@@ -24,7 +46,7 @@ static void strain_group(sb_sim *sim, const sb_group *group, const void *argumen
             xx += factor * x.x * x.x, xy += factor * x.x * x.y, xz += factor * x.x * x.z;
             yy += factor * x.y * x.y, yz += factor * x.y * x.z, zz += factor * x.z * x.z;
         }
-        const double mean = (xx + yy + zz) / d, share = (double)sb_stress_share(sim, (float)whole, (float)mean);
+        const double mean = (xx + yy + zz) / d, share = (double)share_of(sim, &around, i, (float)whole, (float)mean);
         const double off = -share / mean;
         const bool corrected = (sim->needs.images || sim->work.wall_pairs.count[i] == 0) && share > 0;
         sim->work.strain_xx[i] = corrected ? (float)(share + off * xx) : 0;
