@@ -14,14 +14,10 @@ static void fill(basin *b, const char *sides, const char *max, const char *level
     char water[64];
     snprintf(water, sizeof water, "{level: %s, seed: [1, 1, 0.1]}", level);
     const sb_override set[] = {
-        {"dimensions", "3"},
-        {"resolution", "1"},
-        {"domain.min", "[0, 0, 0]"},
-        {"domain.max", max},
-        {"domain.sides", sides},
-        {"water", water},
-        {"bodies", bodies},
-        {"numerics.jitter", bodies[1] == ']' ? "0" : "0.05"},
+        {"dimensions", "3"},         {"resolution", "1"},
+        {"domain.min", "[0, 0, 0]"}, {"domain.max", max},
+        {"domain.sides", sides},     {"water", water},
+        {"bodies", bodies},          {"numerics.jitter", bodies[1] == ']' ? "0" : "0.05"},
     };
     basin_build(b, set, sizeof set / sizeof *set);
     basin_start(b);
