@@ -186,7 +186,7 @@ size_t sb_sim_bytes(const sb_sim *sim)
 {
     enum { WALL_BYTES = sizeof(sb_record) + sizeof(uint32_t) + sizeof(sb_f4) };
     size_t bytes = sb_state_bytes(&sim->state) + sim->work.bytes + sb_cells_bytes(&sim->cells) +
-                   sb_cells_bytes(&sim->ghosts.cells);
+                   sim->work.cell_sum_capacity * sizeof *sim->work.cell_sum + sb_cells_bytes(&sim->ghosts.cells);
     bytes += sim->ghosts.of_capacity * 4 + (sim->ghosts.words_capacity + sim->ghosts.other_capacity) * 8;
     bytes += sim->work.pairs.capacity * sizeof *sim->work.pairs.four + sim->work.wall_pairs.capacity * 8;
     bytes += sim->groups.capacity * sizeof *sim->groups.group + sim->groups.room * sizeof *sim->groups.run;

@@ -129,7 +129,7 @@ static void wall_probes_add_up_to_the_force(void **state)
         }
     }
     print_message("probes %.0f N s/m, body %.0f N s/m, at most %.0f N/m\n", probe_impulse, force, greatest);
-    assert_true(greatest > 5000); /* the water struck the wall */
+    assert_true(greatest > 4905); /* the water struck the wall: more than the column at rest would exert */
     assert_true(fabs(probe_impulse / force - 1) < 0.05);
     sb_measure_destroy(measure);
     sb_sim_destroy(sim);

@@ -31,8 +31,6 @@ const sb_work_view sb_work_views[] = {
     {WORK(diagonal), FROM(NEIGHBOURS, AFTER), .unit = "kg^2 s^2/m^8", .needed = SB_ALWAYS},
     {WORK(strain_xx), FROM(STRAIN, STRESS), .unit = "1", .needed = SB_NEEDS(stress_correction)},
     {WORK(strain), FROM(STRAIN, STRESS), .unit = "1", .ghosts = true, .needed = SB_NEEDS(stress_correction)},
-    {WORK(cell_rest), FROM(STRESS, STRESS), .unit = "1", .ghosts = true, .needed = SB_NEEDS(stress_correction)},
-    {WORK(cell_more), FROM(STRESS, STRESS), .unit = "1", .ghosts = true, .needed = SB_NEEDS(stress_correction)},
     {WORK(stress_xx), FROM(STRESS, CORRECTED), .unit = "Pa m^6/kg^2", .needed = SB_NEEDS(stress_correction)},
     {WORK(stress), FROM(STRESS, CORRECTED), .unit = "Pa m^6/kg^2", .ghosts = true,
      .needed = SB_NEEDS(stress_correction)},
@@ -144,7 +142,10 @@ void sb_work_destroy(sb_work *work)
 {
     for (const sb_work_view *v = sb_work_views; v->name; v++) set_pointer(work, v, NULL);
     sb_free(work->block);
+    sb_free(work->cell_sum);
     work->block = NULL;
+    work->cell_sum = NULL;
+    work->cell_sum_capacity = 0;
     work->bytes = 0;
 }
 

@@ -53,6 +53,11 @@ typedef struct sb_solve {
 
 enum { SB_FORCE_VALUES = 9 }; /* of a body: pressure and drag, N, and moment, N m: three components each */
 
+/* Sums over the particles of a cell: yy, xy, xz, yz of their strains; xx, and their number. */
+typedef struct sb_cell_sum {
+    sb_f4 rest, more;
+} sb_cell_sum;
+
 /* A particle's strain or stress without trace: xx, and yy, xy, xz, yz. In views that neighbours read xx is carried by
    the records (sb_pressure_load). */
 typedef struct sb_work {
@@ -73,8 +78,9 @@ typedef struct sb_work {
 
     float *strain_xx, *stress_xx;
     sb_f4 *strain, *stress;
-    sb_f4 *cell_rest, *cell_more; /* by cell, then by cell of the ghosts: sums of strains; of xx, and number */
-    sb_f4 *corrected;             /* m/s, velocity after the stress correction */
+    sb_cell_sum *cell_sum; /* by cell, then by cell of the ghosts (sim/terms/cell_mean.h) */
+    size_t cell_sum_capacity;
+    sb_f4 *corrected; /* m/s, velocity after the stress correction */
 
     float *eddy;      /* m^2/s, nu_t at the step's start; NULL without a turbulence model */
     sb_f4 *wall_drag; /* m/s^2, by friction and shear of walls, for particles beside walls; NULL without drag */

@@ -1,16 +1,12 @@
 #include "sim/terms/cell_mean.h"
 
+#include "base/memory.h"
+
 enum { AROUND = 27 }; /* a cell and its neighbours */
 
-/* The sums of one cell. */
-typedef struct cell_sum {
-    sb_f4 rest;
-    sb_f4 more; /* xx, number of particles */
-} cell_sum;
-
-SB_INLINE cell_sum plus(cell_sum a, cell_sum b)
+SB_INLINE sb_cell_sum plus(sb_cell_sum a, sb_cell_sum b)
 {
-    return (cell_sum){a.rest + b.rest, a.more + b.more};
+    return (sb_cell_sum){a.rest + b.rest, a.more + b.more};
 }
 
 /* base: the entry of the first particle of these cells; first: the entry of the sums of the first cell. */
@@ -18,29 +14,28 @@ static void sum_cells(sb_sim *sim, const sb_cells *cells, const sb_f4 *rest, siz
 {
 #pragma omp parallel for schedule(static)
     for (size_t c = 0; c < cells->count; c++) {
-        cell_sum all = {{0}, {0}};
+        sb_cell_sum all = {{0}, {0}};
         for (size_t k = base + cells->begin[c]; k < base + cells->begin[c + 1]; k++)
-            all = plus(all, (cell_sum){rest[k], {sb_carried_value(sim->state.position[k]), 1, 0, 0}});
-        sim->work.cell_rest[first + c] = all.rest;
-        sim->work.cell_more[first + c] = all.more;
+            all = plus(all, (sb_cell_sum){rest[k], {sb_carried_value(sim->state.position[k]), 1, 0, 0}});
+        sim->work.cell_sum[first + c] = all;
     }
 }
 
-static cell_sum sum_of(const sb_sim *sim, const sb_cells *cells, uint64_t code, size_t first)
+static sb_cell_sum sum_of(const sb_sim *sim, const sb_cells *cells, uint64_t code, size_t first)
 {
     const int64_t cell = sb_cells_find(cells, code);
-    if (cell < 0) return (cell_sum){{0}, {0}};
-    return (cell_sum){sim->work.cell_rest[first + (size_t)cell], sim->work.cell_more[first + (size_t)cell]};
+    if (cell < 0) return (sb_cell_sum){{0}, {0}};
+    return sim->work.cell_sum[first + (size_t)cell];
 }
 
 /* The sums around cell c. Returns whether any tensor among them is not 0: beside walls and in shallow water all are. */
-static bool gather(const sb_sim *sim, size_t c, cell_sum around[AROUND])
+static bool gather(const sb_sim *sim, size_t c, sb_cell_sum around[AROUND])
 {
     const int layers = sim->constant.dimension == 2 ? 0 : 1;
     sb_i4 bits = {0};
     for (int k = 0; k < AROUND; k++) {
         const int dx = k % 3 - 1, dy = k / 3 % 3 - 1, dz = k / 9 - 1;
-        around[k] = (cell_sum){{0}, {0}};
+        around[k] = (sb_cell_sum){{0}, {0}};
         if (dy < -layers || dy > layers) continue;
         const uint64_t code = sim->cells.code[c] + sb_cell_step(dx, dy, dz);
         around[k] = sum_of(sim, &sim->cells, code, 0);
@@ -61,21 +56,21 @@ SB_INLINE void spline(float u, float weight[3])
 SB_MULTIVERSION
 static void mean_in_cell(sb_sim *sim, size_t c, float *xx, sb_f4 *rest)
 {
-    cell_sum around[AROUND];
+    sb_cell_sum around[AROUND];
     const uint32_t begin = sim->cells.begin[c], end = sim->cells.begin[c + 1];
     const bool any = gather(sim, c, around), flat = sim->constant.dimension == 2;
     const uint32_t inside = ((uint32_t)1 << sim->space.shift) - 1;
     const float per_edge = 1 / ((float)inside + 1);
     for (uint32_t i = begin; i < end; i++) {
         float weight[3][3];
-        cell_sum sum = {{0}, {0}};
+        sb_cell_sum sum = {{0}, {0}};
         if (any) {
             for (int axis = 0; axis < 3; axis++)
                 spline((float)(sim->state.position[i][axis] & inside) * per_edge, weight[axis]);
             if (flat) weight[1][0] = weight[1][2] = 0, weight[1][1] = 1;
             for (int k = 0; k < AROUND; k++) {
                 const sb_f4 w = sb_splat(weight[0][k % 3] * weight[1][k / 3 % 3] * weight[2][k / 9]);
-                sum = plus(sum, (cell_sum){around[k].rest * w, around[k].more * w});
+                sum = plus(sum, (sb_cell_sum){around[k].rest * w, around[k].more * w});
             }
             sum.rest /= sb_splat(sum.more[1]);
             sum.more[0] /= sum.more[1];
@@ -85,11 +80,15 @@ static void mean_in_cell(sb_sim *sim, size_t c, float *xx, sb_f4 *rest)
     }
 }
 
-void sb_cell_mean(sb_sim *sim, float *xx, sb_f4 *rest)
+int sb_cell_mean(sb_sim *sim, float *xx, sb_f4 *rest)
 {
+    sb_work *w = &sim->work;
+    const size_t all = sim->cells.count + sim->ghosts.cells.count;
+    if (sb_grow((void **)&w->cell_sum, &w->cell_sum_capacity, all, sizeof *w->cell_sum) != 0) return -1;
     sum_cells(sim, &sim->cells, rest, 0, 0);
     sum_cells(sim, &sim->ghosts.cells, rest, sim->state.n, sim->cells.count);
     const size_t cells = sim->cells.count;
 #pragma omp parallel for schedule(dynamic, 64)
     for (size_t c = 0; c < cells; c++) mean_in_cell(sim, c, xx, rest);
+    return 0;
 }

@@ -11,7 +11,7 @@
 #include "sim/simulation.h"
 
 /* Replaces the tensors xx (n values) and rest (n and ghosts: yy, xy, xz, yz) of all owned particles by their means.
-   Records carry xx, and the ghosts of both are up to date; afterwards they are not. */
-void sb_cell_mean(sb_sim *sim, float *xx, sb_f4 *rest);
+   Records carry xx, and the ghosts of both are up to date; afterwards they are not. Returns 0, or -1 without memory. */
+int sb_cell_mean(sb_sim *sim, float *xx, sb_f4 *rest);
 
 #endif

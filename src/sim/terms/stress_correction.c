@@ -26,16 +26,16 @@ static double sum_changes(sb_sim *sim, const sb_group *group, double terms[SB_SU
     return -fast;
 }
 
-/* S_i = q_i <E>_i. Ghosts and records have E. */
-static void find_stress(sb_sim *sim)
+/* S_i = q_i <E>_i. Ghosts and records have E. Returns 0, or -1 without memory. */
+static int find_stress(sb_sim *sim)
 {
     sb_work *w = &sim->work;
     for (int mean = 1; mean < MEANS; mean++) {
-        sb_cell_mean(sim, w->strain_xx, w->strain);
+        if (sb_cell_mean(sim, w->strain_xx, w->strain) != 0) return -1;
         sb_refresh(sim, w->strain);
         sb_pressure_load(sim, w->strain_xx);
     }
-    sb_cell_mean(sim, w->strain_xx, w->strain);
+    if (sb_cell_mean(sim, w->strain_xx, w->strain) != 0) return -1;
     const size_t n = sim->state.n;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
@@ -43,6 +43,7 @@ static void find_stress(sb_sim *sim)
         w->stress_xx[i] = q * w->strain_xx[i];
         w->stress[i] = sb_splat(q) * w->strain[i];
     }
+    return 0;
 }
 
 sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
@@ -51,7 +52,7 @@ sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
     sb_refresh(sim, sim->work.strain);
     sb_pressure_load(sim, sim->work.strain_xx);
     sb_work_enter(&sim->work, SB_PHASE_STRESS);
-    find_stress(sim);
+    if (find_stress(sim) != 0) return sb_fail_memory(error, "means of the packing's strain");
     sb_refresh(sim, sim->work.stress);
     sb_pressure_load(sim, sim->work.stress_xx);
     sb_work_enter(&sim->work, SB_PHASE_CORRECTED);
