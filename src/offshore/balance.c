@@ -29,15 +29,19 @@ sb_offshore_balance sb_offshore_find_balance(const sb_offshore *offshore)
     sb_offshore_balance b = {.first = offshore->first, .added = offshore->added, .repaired = offshore->repaired};
     for (int s = 0; s < SB_OFFSHORE_SIDES; s++) b.entered[s] = offshore->entered[s];
     for (size_t j = 0; j < o->rows; j++) {
-        double volume = 0, kinetic = 0, potential = 0;
+        double volume = 0, kinetic = 0, potential = 0, x = 0, y = 0;
         for (size_t i = 0; i < o->columns; i++) {
             const size_t at = offshore->origin + j * offshore->stride + i;
             const double h = offshore->now.h[at], hu = offshore->now.hu[at], hv = offshore->now.hv[at];
             volume += h;
+            x += hu;
+            y += hv;
             potential += o->gravity * h * (offshore->bed[at] + 0.5 * h);
             if (h > 0) kinetic += 0.5 * (hu * hu + hv * hv) / h;
         }
         b.now += volume * area;
+        b.momentum_x += x * area;
+        b.momentum_y += y * area;
         b.kinetic += kinetic * area;
         b.potential += potential * area;
     }
@@ -47,8 +51,7 @@ sb_offshore_balance sb_offshore_find_balance(const sb_offshore *offshore)
 sb_offshore_effort sb_offshore_find_effort(const sb_offshore *offshore)
 {
     sb_offshore_effort effort = {.steps = offshore->steps};
-    if (offshore->dispersion)
-        sb_offshore_dispersion_effort(offshore, &effort.iterations, &effort.breaking);
+    if (offshore->dispersion) sb_offshore_dispersion_effort(offshore, &effort.iterations, &effort.breaking);
     return effort;
 }
 

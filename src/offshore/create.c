@@ -51,10 +51,9 @@ static sb_status check(const sb_offshore_options *o, sb_error *error)
 
 static sb_status allocate(sb_offshore *made, sb_error *error)
 {
-    double **arrays[ARRAYS + 2] = {&made->bed,     &made->now.h,     &made->now.hu,     &made->now.hv,
-                                   &made->before.h, &made->before.hu, &made->before.hv, &made->stage.h,
-                                   &made->stage.hu, &made->stage.hv,  &made->surface,   &made->u,
-                                   &made->v,       &made->force_x,   &made->force_y};
+    double **arrays[ARRAYS + 2] = {&made->bed,       &made->now.h,     &made->now.hu,  &made->now.hv,   &made->before.h,
+                                   &made->before.hu, &made->before.hv, &made->stage.h, &made->stage.hu, &made->stage.hv,
+                                   &made->surface,   &made->u,         &made->v,       &made->force_x,  &made->force_y};
     const size_t count = made->options.dispersion ? ARRAYS + 2 : ARRAYS;
     for (size_t k = 0; k < count; k++) {
         *arrays[k] = sb_alloc(made->cells, sizeof(double));
@@ -81,10 +80,11 @@ static sb_status copy_in(sb_offshore *made, const double *bed, const double *dep
             const size_t from = j * o->columns + i, to = made->origin + j * made->stride + i;
             const double h = depth[from], qx = hu ? hu[from] : 0, qy = hv && o->rows > 1 ? hv[from] : 0;
             if (!isfinite(bed[from]) || !isfinite(h) || !isfinite(qx) || !isfinite(qy) || h < 0)
-                return sb_fail(error, SB_BAD_INPUT,
-                               "offshore: column %zu, row %zu: bed %g m, depth %g m, momentum (%g, %g), expected finite "
-                               "values and a depth >= 0",
-                               i, j, bed[from], h, qx, qy);
+                return sb_fail(
+                    error, SB_BAD_INPUT,
+                    "offshore: column %zu, row %zu: bed %g m, depth %g m, momentum (%g, %g), expected finite "
+                    "values and a depth >= 0",
+                    i, j, bed[from], h, qx, qy);
             made->bed[to] = bed[from];
             made->now.h[to] = h;
             made->now.hu[to] = h > 0 ? qx : 0;
@@ -149,10 +149,10 @@ sb_status sb_offshore_create(const sb_offshore_options *options, const double *b
 void sb_offshore_destroy(sb_offshore *offshore)
 {
     if (!offshore) return;
-    double *const arrays[] = {offshore->bed,       offshore->now.h,    offshore->now.hu,    offshore->now.hv,
-                              offshore->before.h,  offshore->before.hu, offshore->before.hv, offshore->stage.h,
-                              offshore->stage.hu,  offshore->stage.hv, offshore->surface,   offshore->u,
-                              offshore->v,         offshore->force_x,  offshore->force_y,   offshore->scratch,
+    double *const arrays[] = {offshore->bed,        offshore->now.h,         offshore->now.hu,    offshore->now.hv,
+                              offshore->before.h,   offshore->before.hu,     offshore->before.hv, offshore->stage.h,
+                              offshore->stage.hu,   offshore->stage.hv,      offshore->surface,   offshore->u,
+                              offshore->v,          offshore->force_x,       offshore->force_y,   offshore->scratch,
                               offshore->line_speed, offshore->line_repaired, offshore->edge};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) sb_free(arrays[k]);
     sb_offshore_dispersion_destroy(offshore->dispersion);

@@ -22,9 +22,9 @@
 /* Relative residual at which a solve ends. */
 static const double TOLERANCE = 1e-3;
 
-/* Slopes of the bed beyond which the equations do not hold; steeper ones count as this, and bends as such a slope over
-   a cell or over the depth. */
-static const double STEEPEST = 0.5;
+/* Slopes of the bed are at most this where there is a pressure; bends count as such a slope over a cell or over the
+   depth at most. */
+static const double STEEPEST = SB_OFFSHORE_STEEPEST;
 
 size_t sb_offshore_dispersion_bytes(size_t cells)
 {
@@ -37,7 +37,7 @@ sb_status sb_offshore_dispersion_create(const sb_offshore *offshore, struct sb_o
     struct sb_offshore_dispersion *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "the dispersive model");
     sb_offshore_system *s = &made->system;
-    double **arrays[] = {&s->east,     &s->north,      &s->scale,    &s->unknown, &s->residual, &s->direction,
+    double **arrays[] = {&s->east,    &s->north,       &s->scale,      &s->unknown,   &s->residual,   &s->direction,
                          &s->product, &made->pressure, &made->earlier, &made->active, &made->breaking};
     sb_status status = SB_OK;
     for (size_t k = 0; status == SB_OK && k < sizeof arrays / sizeof *arrays; k++) {
@@ -58,9 +58,18 @@ void sb_offshore_dispersion_destroy(struct sb_offshore_dispersion *dispersion)
 {
     if (!dispersion) return;
     const sb_offshore_system *s = &dispersion->system;
-    double *const arrays[] = {s->east,    s->north,    s->scale,   s->unknown,           s->residual,
-                              s->direction, s->product, s->line_sum, dispersion->pressure, dispersion->earlier,
-                              dispersion->active, dispersion->breaking};
+    double *const arrays[] = {s->east,
+                              s->north,
+                              s->scale,
+                              s->unknown,
+                              s->residual,
+                              s->direction,
+                              s->product,
+                              s->line_sum,
+                              dispersion->pressure,
+                              dispersion->earlier,
+                              dispersion->active,
+                              dispersion->breaking};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) sb_free(arrays[k]);
     sb_free(dispersion);
 }
@@ -153,10 +162,8 @@ SB_MULTIVERSION static void assemble(line l, double ahead, size_t count)
         const double laplacian = (s[1] - 2 * s[0] + s[-1] + s[l.up] - 2 * s[0] + s[-l.up]) * square;
         const double q = ux * ux + vy * vy + ux * vy + uy * vx;
         const double right = l.gravity * laplacian + 2 * q + 1.5 * in * bed_rate(l, i);
-        const double e =
-            clamp(0.5 * h * bend - bx * hx - by * hy - 0.75 * (bx * bx + by * by), 0.5);
-        const double diagonal =
-            3 * (1 - e) * in * in * in + l.east[i] + l.east[i - 1] + l.north[i] + l.north[i - l.up];
+        const double e = clamp(0.5 * h * bend - bx * hx - by * hy - 0.75 * (bx * bx + by * by), 0.5);
+        const double diagonal = 3 * (1 - e) * in * in * in + l.east[i] + l.east[i - 1] + l.north[i] + l.north[i - l.up];
         const double root = sqrt(diagonal), scale = l.active[i] > 0 ? 1 / root : 0;
         const double pressure = l.pressure[i] + ahead * (l.pressure[i] - l.earlier[i]);
         l.scale[i] = scale;
@@ -189,10 +196,10 @@ SB_MULTIVERSION static void find_forces(line l, size_t count)
         const double bx = bed_slope(l, i, 1), by = bed_slope(l, i, l.up);
         const double px = (l.pressure[i + 1] - l.pressure[i - 1]) * half;
         const double py = (l.pressure[i + l.up] - l.pressure[i - l.up]) * half;
-        const double bottom =
-            l.active[i] * (1.5 * l.pressure[i] / h + 0.25 * (h * bed_rate(l, i) - px * bx - py * by));
-        l.force_x[i] = -px - bottom * bx;
-        l.force_y[i] = -py - bottom * by;
+        const double bears = l.active[i] >= 0 ? 1 : 0, active = l.active[i] > 0 ? 1 : 0;
+        const double bottom = active * (1.5 * l.pressure[i] / h + 0.25 * (h * bed_rate(l, i) - px * bx - py * by));
+        l.force_x[i] = -bears * (px + bottom * bx);
+        l.force_y[i] = -bears * (py + bottom * by);
     }
 }
 

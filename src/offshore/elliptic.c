@@ -44,8 +44,9 @@ SB_MULTIVERSION static double multiply(const double *restrict d, const double *r
 }
 
 /* Moves along the direction; returns the square of the new residual. */
-SB_MULTIVERSION static double move(double *restrict unknown, double *restrict residual, const double *restrict direction,
-                                   const double *restrict product, double length, size_t count)
+SB_MULTIVERSION static double move(double *restrict unknown, double *restrict residual,
+                                   const double *restrict direction, const double *restrict product, double length,
+                                   size_t count)
 {
     double sum = 0;
 #pragma omp simd reduction(+ : sum)
@@ -58,7 +59,8 @@ SB_MULTIVERSION static double move(double *restrict unknown, double *restrict re
     return sum;
 }
 
-SB_MULTIVERSION static void turn(double *restrict direction, const double *restrict residual, double share, size_t count)
+SB_MULTIVERSION static void turn(double *restrict direction, const double *restrict residual, double share,
+                                 size_t count)
 {
 #pragma omp simd
     for (size_t i = 0; i < count; i++) direction[i] = residual[i] + share * direction[i];

@@ -16,8 +16,8 @@ SB_INLINE double most(double a, double b)
     return a > b ? a : b;
 }
 
-/* Half the difference across a cell: monotonised central [van Leer 1977]. |result| is at most the distance to the nearer
-   neighbour's value, so a depth at a face is never negative. */
+/* Half the difference across a cell: monotonised central [van Leer 1977]. |result| is at most the distance to the
+   nearer neighbour's value, so a depth at a face is never negative. */
 SB_INLINE double half_slope(double before, double here, double after)
 {
     const double a = here - before, b = after - here, centre = 0.25 * (a + b);
@@ -47,8 +47,8 @@ SB_INLINE void wave_speeds(double hl, double ul, double hr, double ur, double gr
     *fast = hl > 0 ? *fast : ur + cr;
 }
 
-/* HLLC [Toro 2001] between depths above the higher of the two beds [Audusse et al. 2004]. Written as the left flux and a
-   jump, so that it is exact, without rounding, where surfaces are equal and velocities 0. */
+/* HLLC [Toro 2001] between depths above the higher of the two beds [Audusse et al. 2004]. Written as the left flux and
+   a jump, so that it is exact, without rounding, where surfaces are equal and velocities 0. */
 SB_INLINE face_flux flux_between(face_side left, face_side right, double gravity)
 {
     const double bed = most(left.surface - left.h, right.surface - right.h);

@@ -21,8 +21,8 @@ SB_INLINE double inverse_cube_root(double x)
 
 /* d|q|/dt = -g n^2 |q|^2 h^(-7/3), with the value at the end of the step on the right: a quadratic equation, whose
    solution keeps the sign of q and the exact balance with a slope. */
-SB_MULTIVERSION static void slow_line(const double *restrict h, double *restrict hu, double *restrict hv, double strength,
-                                      double dry, size_t count)
+SB_MULTIVERSION static void slow_line(const double *restrict h, double *restrict hu, double *restrict hv,
+                                      double strength, double dry, size_t count)
 {
 #pragma omp simd
     for (size_t i = 0; i < count; i++) {

@@ -1,7 +1,7 @@
 /* Depth-averaged water on a grid of square cells: the nonlinear shallow-water equations, and on request the
-   Serre-Green-Naghdi equations. Finite volumes of second order in space and time; water at rest stays at rest, and depths
-   stay positive. One row of cells is the model in one dimension. The bits are the same for any number of threads.
-   docs/offshore.md has the equations and their sources. */
+   Serre-Green-Naghdi equations. Finite volumes of second order in space and time; water at rest stays at rest, and
+   depths stay positive. One row of cells is the model in one dimension. The bits are the same for any number of
+   threads. docs/offshore.md has the equations and their sources. */
 #ifndef SB_OFFSHORE_OFFSHORE_H
 #define SB_OFFSHORE_OFFSHORE_H
 
@@ -36,15 +36,15 @@ typedef struct sb_offshore_options {
     double gravity;       /* m/s^2 */
     double manning;       /* s/m^(1/3), Manning's n; 0: no friction */
     double level;         /* m, still water beyond open sides */
-    double dry_depth;     /* m, below this the velocity of a film is reduced; 0: 1e-5 of the greatest depth, at most 1 mm */
+    double dry_depth; /* m, below this the velocity of a film is reduced; 0: 1e-5 of the greatest depth, at most 1 mm */
     sb_offshore_side side[SB_OFFSHORE_SIDES]; /* those along y have no effect with one row */
     sb_offshore_given *given;                 /* NULL: no side is given */
     void *given_context;
     bool dispersion; /* Serre-Green-Naghdi instead of shallow water */
 } sb_offshore_options;
 
-/* Copies bed and depth: columns x rows values, m, [row * columns + column], row 0 at y. hu and hv (m^2/s) may be NULL: at
-   rest. The caller owns *offshore. SB_BAD_INPUT names an option or the first cell whose value is not finite or whose
+/* Copies bed and depth: columns x rows values, m, [row * columns + column], row 0 at y. hu and hv (m^2/s) may be NULL:
+   at rest. The caller owns *offshore. SB_BAD_INPUT names an option or the first cell whose value is not finite or whose
    depth is negative. */
 sb_status sb_offshore_create(const sb_offshore_options *options, const double *bed, const double *depth,
                              const double *hu, const double *hv, sb_offshore **offshore, sb_error *error);
@@ -83,11 +83,12 @@ double sb_offshore_add(sb_offshore *offshore, size_t column, size_t row, double 
 
 /* Volumes in m^3 (one row: m^2, per metre of width). first + entered + added + repaired = now, but for rounding. */
 typedef struct sb_offshore_balance {
-    double first, now;                   /* at the start, now */
-    double entered[SB_OFFSHORE_SIDES];   /* through each side since the start; negative: left */
-    double added;                        /* by sb_offshore_add */
-    double repaired;                     /* by setting negative depths to 0 */
-    double kinetic, potential;           /* J per density, now; potential energy relative to a dry bed at z = 0 */
+    double first, now;                 /* at the start, now */
+    double entered[SB_OFFSHORE_SIDES]; /* through each side since the start; negative: left */
+    double added;                      /* by sb_offshore_add */
+    double repaired;                   /* by setting negative depths to 0 */
+    double kinetic, potential;         /* now, over density; potential energy from z = 0 */
+    double momentum_x, momentum_y;     /* now, over density, m^4/s (m^3/s) */
 } sb_offshore_balance;
 sb_offshore_balance sb_offshore_find_balance(const sb_offshore *offshore);
 

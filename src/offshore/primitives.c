@@ -38,8 +38,14 @@ void sb_offshore_find_primitives(sb_offshore *offshore, const sb_offshore_level 
 #pragma omp parallel for schedule(static) if (offshore->cells > 20000)
     for (size_t j = 0; j < offshore->lines; j++) {
         const size_t at = j * offshore->stride;
-        const line l = {offshore->bed + at,     level->h + at,      level->hu + at,    level->hv + at,
-                        offshore->surface + at, offshore->u + at, offshore->v + at, offshore->options.gravity,
+        const line l = {offshore->bed + at,
+                        level->h + at,
+                        level->hu + at,
+                        level->hv + at,
+                        offshore->surface + at,
+                        offshore->u + at,
+                        offshore->v + at,
+                        offshore->options.gravity,
                         dry};
         offshore->line_speed[j] = find_line(l, offshore->stride, flat) / offshore->options.cell;
     }

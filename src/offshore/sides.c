@@ -49,8 +49,8 @@ static void fill_passing(const sb_offshore *offshore, double *h, double *across,
     double given_normal = 0, given_along = 0;
     if (given) {
         water = o->given(o->given_context, time, e->x, e->y);
-        const bool along_x = e->within[0] > e->within[1] ? e->within[0] - e->within[1] == 1
-                                                         : e->within[1] - e->within[0] == 1;
+        const bool along_x =
+            e->within[0] > e->within[1] ? e->within[0] - e->within[1] == 1 : e->within[1] - e->within[0] == 1;
         given_normal = e->outward * (along_x ? water.u : water.v);
         given_along = along_x ? water.v : water.u;
     }

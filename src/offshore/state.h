@@ -12,22 +12,23 @@ typedef struct sb_offshore_level {
     double *h, *hu, *hv;
 } sb_offshore_level;
 
-/* Arrays have `stride` x `lines` values. Cell (0, 0) has index `origin`; cells beyond the sides surround it. With one row
-   there are none beyond it along y. */
+/* Arrays have `stride` x `lines` values. Cell (0, 0) has index `origin`; cells beyond the sides surround it. With one
+   row there are none beyond it along y. */
 struct sb_offshore {
     sb_offshore_options options;
     size_t stride, lines, origin, cells; /* cells: stride x lines */
     double time, before_time;            /* s, of now and of before */
+    double longest;                      /* s, longest stable time step so far; 0: none */
     uint64_t steps;
     double *bed;
-    sb_offshore_level now, before, stage; /* a step writes its result over `before` */
-    double *surface, *u, *v;              /* of the level whose fluxes are next */
-    double *force_x, *force_y;            /* m^2/s^2, dispersive force on hu and hv; NULL: none */
+    sb_offshore_level now, before, stage;      /* a step writes its result over `before` */
+    double *surface, *u, *v;                   /* of the level whose fluxes are next */
+    double *force_x, *force_y;                 /* m^2/s^2, dispersive force on hu and hv; NULL: none */
     struct sb_offshore_dispersion *dispersion; /* NULL: none */
-    double *line_speed;                   /* 1/s, per line: greatest sum of wave speeds over cells */
-    double *line_repaired;                /* m, per line */
-    double *edge;                         /* m^2/s into the grid through x_min and x_max, per line; y_min, y_max per column */
-    double *scratch;                      /* SB_OFFSHORE_ROWS rows per thread */
+    double *line_speed;                        /* 1/s, per line: greatest sum of wave speeds over cells */
+    double *line_repaired;                     /* m, per line */
+    double *edge;    /* m^2/s into the grid through x_min and x_max, per line; y_min, y_max per column */
+    double *scratch; /* SB_OFFSHORE_ROWS rows per thread */
     int scratch_threads;
     double entered[SB_OFFSHORE_SIDES], added, repaired, first; /* m^3 */
     double pending[SB_OFFSHORE_SIDES], pending_repaired;       /* m^3, of the step in progress */
@@ -42,8 +43,8 @@ void sb_offshore_fill_sides(const sb_offshore *offshore, const sb_offshore_level
 /* primitives.c: surface and velocities of a level, and line_speed. */
 void sb_offshore_find_primitives(sb_offshore *offshore, const sb_offshore_level *level);
 
-/* update.c: out = keep * first + (1 - keep) * (in + dt * L(in)), where the primitives are those of `in`. Adds the volume
-   through the sides with weight 1 - keep, and negative depths that it sets to 0. */
+/* update.c: out = keep * first + (1 - keep) * (in + dt * L(in)), where the primitives are those of `in`. Adds the
+   volume through the sides with weight 1 - keep, and negative depths that it sets to 0. */
 typedef struct sb_offshore_update {
     const sb_offshore_level *first, *in, *out;
     double keep, dt;

@@ -48,6 +48,31 @@ static sb_status fail(const sb_offshore *offshore, sb_error *error)
                    offshore->time);
 }
 
+/* A time step so much shorter than the longest one means that the run diverges. */
+static const double COLLAPSE = 1e-5;
+
+static sb_status fail_collapse(const sb_offshore *offshore, double limit, sb_error *error)
+{
+    const sb_offshore_options *o = &offshore->options;
+    double greatest = 0;
+    size_t column = 0, row = 0;
+    for (size_t j = 0; j < o->rows; j++)
+        for (size_t i = 0; i < o->columns; i++) {
+            const size_t at = offshore->origin + j * offshore->stride + i;
+            const double speed = fabs(offshore->u[at]) + fabs(offshore->v[at]);
+            if (!(speed > greatest)) continue;
+            greatest = speed;
+            column = i;
+            row = j;
+        }
+    return sb_fail(
+        error, SB_FAILED,
+        "offshore: t = %g s: diverged: a time step of %.3g s, with a speed of %.3g m/s at (%g, %g) m, expected "
+        "at least %.3g s",
+        offshore->time, limit, greatest, o->x + ((double)column + 0.5) * o->cell, o->y + ((double)row + 0.5) * o->cell,
+        COLLAPSE * offshore->longest);
+}
+
 double sb_offshore_time_step(sb_offshore *offshore)
 {
     prepare(offshore, &offshore->now, offshore->time);
@@ -65,6 +90,8 @@ sb_status sb_offshore_step(sb_offshore *offshore, double most, double *taken, sb
     prepare(offshore, &offshore->now, offshore->time);
     const double limit = stable(offshore);
     if (isnan(limit)) return fail(offshore, error);
+    if (isfinite(limit)) offshore->longest = fmax(offshore->longest, limit);
+    if (limit < COLLAPSE * offshore->longest) return fail_collapse(offshore, limit, error);
     const double dt = fmin(most, limit);
     if (!(dt > 0) || !isfinite(dt))
         return sb_fail(error, SB_FAILED, "offshore: a time step of %g s, expected > 0 and finite", dt);

@@ -124,8 +124,7 @@ typedef struct stage {
 static cells cells_at(const stage *s, size_t at, bool along_y)
 {
     const sb_offshore *o = s->offshore;
-    return (cells){s->update->in->h + at, o->surface + at, (along_y ? o->v : o->u) + at,
-                   (along_y ? o->u : o->v) + at};
+    return (cells){s->update->in->h + at, o->surface + at, (along_y ? o->v : o->u) + at, (along_y ? o->u : o->v) + at};
 }
 
 static void finish(const stage *s, size_t j, const rows *r)

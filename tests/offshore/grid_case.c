@@ -53,8 +53,7 @@ double grid_fastest(const sb_offshore *offshore)
     for (size_t j = 0; j < v.rows; j++)
         for (size_t i = 0; i < v.columns; i++) {
             const size_t at = j * v.stride + i;
-            if (v.h[at] > v.dry_depth)
-                greatest = fmax(greatest, fmax(fabs(v.hu[at]), fabs(v.hv[at])) / v.h[at]);
+            if (v.h[at] > v.dry_depth) greatest = fmax(greatest, fmax(fabs(v.hu[at]), fabs(v.hv[at])) / v.h[at]);
         }
     return greatest;
 }
