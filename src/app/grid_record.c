@@ -32,8 +32,8 @@ static instant water_at(const sb_offshore *water, double x, double y, double tim
                                between(&s, a->v, b->v, time)}};
 }
 
-/* Walks along a line in steps of a quarter of a cell, from its first end, over water deeper than the threshold. Takes the
-   newer level: rows of run-up are at most a time step late. */
+/* Walks along a line in steps of a quarter of a cell, from its first end, over water deeper than the threshold. Takes
+   the newer level: rows of run-up are at most a time step late. */
 static sb_runup_record runup_of(const sb_grid_record *r, const sb_offshore *water, size_t line, double time)
 {
     const sb_runup_line *l = &r->scene->measure.runups[line];
@@ -86,10 +86,11 @@ static sb_status write_rows(sb_grid_record *r, const sb_offshore *water, double 
         const instant w = water_at(water, m->probes[i].at.x, m->probes[i].at.y, time);
         const double depth = w.water.surface - m->probes[i].at.z;
         const bool under = w.wet && depth > 0;
-        r->probes[i] = (sb_probe_record){.probe = i,
-                                         .time = time,
-                                         .velocity = under ? sb_vec(w.water.u, w.water.v, none) : sb_vec(none, none, none),
-                                         .pressure = under ? weight * depth : none};
+        r->probes[i] =
+            (sb_probe_record){.probe = i,
+                              .time = time,
+                              .velocity = under ? sb_vec(w.water.u, w.water.v, none) : sb_vec(none, none, none),
+                              .pressure = under ? weight * depth : none};
     }
     for (size_t i = 0; i < m->runup_count; i++) r->runups[i] = runup_of(r, water, i, time);
     const sb_energy_record energy = energy_of(r, water, time);

@@ -24,8 +24,7 @@ static uint64_t hash_of(const sb_offshore *water)
     const double *const fields[] = {v.h, v.hu, v.hv};
     uint64_t hash = 0;
     for (size_t f = 0; f < 3; f++)
-        for (size_t j = 0; j < v.rows; j++)
-            hash = sb_hash(hash, fields[f] + j * v.stride, v.columns * sizeof(double));
+        for (size_t j = 0; j < v.rows; j++) hash = sb_hash(hash, fields[f] + j * v.stride, v.columns * sizeof(double));
     return hash;
 }
 

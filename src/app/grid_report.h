@@ -9,7 +9,7 @@ typedef struct sb_grid_summary {
     const sb_offshore *water;
     const sb_grid_facts *facts;
     sb_status status;
-    const char *reason; /* NULL unless it failed */
+    const char *reason;                      /* NULL unless it failed */
     double wall, processor, setup, stepping; /* s of wall time, of all threads; before the first step; of steps */
     uint64_t iterations;
     size_t breaking; /* most cells that broke at one time */

@@ -36,6 +36,9 @@ static sb_status open_directory(run *r, const sb_run_options *options, sb_error 
     if (options->resume)
         return sb_fail(error, SB_BAD_INPUT,
                        "--resume: a run of offshore has no checkpoints, expected --overwrite, or a new directory");
+    if (options->live_port > 0)
+        return sb_fail(error, SB_BAD_INPUT,
+                       "--live: a run of offshore is not shown in browsers, expected a scene without offshore");
     sb_status status = sb_make_directories(r->directory, error);
     if (status == SB_OK) status = sb_lock_directory(r->directory, "another directory", &r->lock, error);
     return status == SB_OK ? sb_run_check_directory(r, options, error) : status;
@@ -67,8 +70,8 @@ static sb_status start(grid_run *g, const sb_run_options *options, sb_error *err
     sb_run_report(r, "%zu x %zu cells of %g m, %zu wet, up to %g m deep, %s", g->facts.columns, g->facts.rows,
                   r->scene->offshore.cell, g->facts.wet, g->facts.deepest,
                   r->scene->offshore.dispersion ? "Serre-Green-Naghdi" : "shallow water");
-    sb_runlog_event(r->log, "start", "shorebreak %s, offshore: %zu x %zu cells of %g m, %zu wet, %s, %d threads", SB_VERSION,
-                    g->facts.columns, g->facts.rows, r->scene->offshore.cell, g->facts.wet,
+    sb_runlog_event(r->log, "start", "shorebreak %s, offshore: %zu x %zu cells of %g m, %zu wet, %s, %d threads",
+                    SB_VERSION, g->facts.columns, g->facts.rows, r->scene->offshore.cell, g->facts.wet,
                     r->scene->offshore.dispersion ? "Serre-Green-Naghdi" : "shallow water", omp_get_max_threads());
     status = sb_grid_record_begin(&g->record, r->scene, r->directory, g->water, error);
     g->setup = sb_progress_wall(&r->progress);
@@ -84,8 +87,7 @@ static double fastest(const sb_offshore *water)
         for (size_t i = 0; i < v.columns; i++) {
             const size_t at = j * v.stride + i;
             const double h = v.h[at];
-            if (h > 10 * v.dry_depth)
-                square = fmax(square, (v.hu[at] * v.hu[at] + v.hv[at] * v.hv[at]) / (h * h));
+            if (h > 10 * v.dry_depth) square = fmax(square, (v.hu[at] * v.hu[at] + v.hv[at] * v.hv[at]) / (h * h));
         }
     return sqrt(square);
 }
@@ -105,11 +107,12 @@ static void report_step(grid_run *g, double taken)
     if (effort.steps % LOG_STEPS != 0) return;
     const sb_offshore_balance balance = sb_offshore_find_balance(g->water);
     sb_run_ensure_log(&g->r);
-    sb_runlog_event(g->r.log, "step",
-                    "step %llu, t = %.9g s, dt = %.4g s, volume %.12g m3, imbalance %.3g m3, %llu iterations, %zu cells "
-                    "breaking",
-                    (unsigned long long)effort.steps, report.time, taken, balance.now, sb_grid_imbalance(&balance),
-                    (unsigned long long)effort.iterations, effort.breaking);
+    sb_runlog_event(
+        g->r.log, "step",
+        "step %llu, t = %.9g s, dt = %.4g s, volume %.12g m3, imbalance %.3g m3, %llu iterations, %zu cells "
+        "breaking",
+        (unsigned long long)effort.steps, report.time, taken, balance.now, sb_grid_imbalance(&balance),
+        (unsigned long long)effort.iterations, effort.breaking);
 }
 
 static sb_status advance(grid_run *g, sb_error *error)

@@ -11,8 +11,10 @@
 sb_status sb_grid_refuse(const sb_scene *scene, const char *command, sb_error *error)
 {
     if (!scene->offshore.present) return SB_OK;
-    return sb_fail(error, SB_BAD_INPUT, "%.500s: has offshore and no particles, and %s needs particles; expected run or "
-                                        "check", scene->path, command);
+    return sb_fail(error, SB_BAD_INPUT,
+                   "%.500s: has offshore and no particles, and %s needs particles; expected run or "
+                   "check",
+                   scene->path, command);
 }
 
 static sb_offshore_side side_of(const sb_scene *scene, int side)
@@ -103,10 +105,11 @@ sb_status sb_grid_water_create(const sb_scene *scene, sb_offshore **water, sb_gr
         found.wet = fill_water(scene, &options, bed, depth, hu);
         for (size_t k = 0; k < cells; k++) found.deepest = fmax(found.deepest, depth[k]);
         if (found.wet == 0)
-            status = sb_fail(error, SB_BAD_INPUT,
-                             "offshore.level: %g m is below the whole bed, expected water somewhere; check the level, and "
-                             "datum and positive of the terrain",
-                             scene->offshore.level);
+            status =
+                sb_fail(error, SB_BAD_INPUT,
+                        "offshore.level: %g m is below the whole bed, expected water somewhere; check the level, and "
+                        "datum and positive of the terrain",
+                        scene->offshore.level);
     }
     if (status == SB_OK) status = sb_offshore_create(&options, bed, depth, hu, NULL, &made, error);
     sb_free(bed);
@@ -135,7 +138,7 @@ void sb_grid_water_warnings(const sb_scene *scene, const sb_grid_facts *facts, s
     const bool exact = o->wave.theory == SB_SOLITARY_SERRE && o->dispersion;
     if (o->wave.kind == SB_INITIAL_SOLITARY && !exact && o->wave.height > 0.2 * o->wave.depth) {
         snprintf(text, sizeof text,
-                 "offshore.wave: a solitary wave of %.2g of the depth changes its form at the start%s", 
+                 "offshore.wave: a solitary wave of %.2g of the depth changes its form at the start%s",
                  o->wave.height / o->wave.depth,
                  o->dispersion ? "; expected theory: serre, which is exact here" : ", because shallow water has none");
         visit(context, text);

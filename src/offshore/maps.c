@@ -55,7 +55,7 @@ void sb_offshore_maps_step(sb_offshore_maps *maps, const sb_offshore *offshore, 
 #pragma omp parallel for schedule(static) if (v.columns * v.rows > 20000)
     for (size_t j = 0; j < v.rows; j++) {
         const size_t to = j * v.columns, from = j * v.stride;
-        const line l = {v.h + from,         v.hu + from,          v.hv + from,           maps->depth + to, maps->speed + to,
+        const line l = {v.h + from,      v.hu + from,        v.hv + from,         maps->depth + to, maps->speed + to,
                         maps->flux + to, maps->arrival + to, maps->duration + to, maps->start + to};
         record_line(l, maps->threshold, (float)v.time, (float)taken, v.columns);
     }

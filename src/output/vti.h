@@ -13,9 +13,9 @@ typedef struct sb_vti_array {
 } sb_vti_array;
 
 typedef struct sb_vti {
-    double time;                 /* s */
-    size_t columns, rows;        /* cells */
-    double x, y, cell;           /* m, corner and edge */
+    double time;          /* s */
+    size_t columns, rows; /* cells */
+    double x, y, cell;    /* m, corner and edge */
     size_t array_count;
     const sb_vti_array *arrays;
 } sb_vti;

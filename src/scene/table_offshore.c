@@ -43,8 +43,7 @@ enum { UPLIFT = 1 };
 
 static unsigned variant(const void *item, const sb_yaml *map)
 {
-    const bool uplift =
-        map ? sb_yaml_child(map, "uplift") != NULL : ((const sb_offshore_settings *)item)->has_uplift;
+    const bool uplift = map ? sb_yaml_child(map, "uplift") != NULL : ((const sb_offshore_settings *)item)->has_uplift;
     return uplift ? UPLIFT : 0;
 }
 
@@ -85,11 +84,15 @@ static sb_status check_extent(sb_reader *reader, const sb_yaml *map, char axis, 
     const double count = extent / cell, most = 1e5;
     if (!(extent > 0)) return sb_reader_fail(reader, map, "max", "is not above min, expected min < max");
     if (fabs(count - round(count)) > 1e-6 * count || count < 1.5)
-        return sb_reader_fail(reader, map, "cell", "the extent of %g m along %c is %.6g cells of %g m, expected a whole "
-                              "number, at least 2", extent, axis, count, cell);
+        return sb_reader_fail(reader, map, "cell",
+                              "the extent of %g m along %c is %.6g cells of %g m, expected a whole "
+                              "number, at least 2",
+                              extent, axis, count, cell);
     if (count > most)
-        return sb_reader_fail(reader, map, "cell", "the extent of %g m along %c is %.0f cells of %g m, expected at most "
-                              "%g", extent, axis, count, cell, most);
+        return sb_reader_fail(reader, map, "cell",
+                              "the extent of %g m along %c is %.0f cells of %g m, expected at most "
+                              "%g",
+                              extent, axis, count, cell, most);
     return SB_OK;
 }
 

@@ -1,6 +1,6 @@
 /* Runs of the depth-averaged model alone, as a user makes them. */
-#include "program.h"
 #include "base/memory.h"
+#include "program.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -105,6 +105,10 @@ static void earlier_files_are_kept_or_replaced(void **state)
     outcome resumed = RUN(1, "run", "basin.yaml", "--out", "b", "--quiet", "--resume");
     assert_one_line(resumed.err, "--resume: a run of offshore has no checkpoints");
     outcome_free(&resumed);
+    outcome shown = RUN(1, "run", "basin.yaml", "--out", "new", "--quiet", "--live");
+    assert_one_line(shown.err, "--live: a run of offshore");
+    outcome_free(&shown);
+    assert_true(!exists("new"));
     RUN_AND_FORGET(0, "run", "basin.yaml", "--out", "b", "--quiet", "--overwrite", "--until", "2");
     assert_true(exists("b/grid/000002.vti") && !exists("b/grid/000004.vti"));
 }
@@ -168,9 +172,9 @@ static double greatest_runup(const char *scene)
     return greatest;
 }
 
-/* Synolakis 1987, assets/validation/solitary-runup/runup.csv. Eight runs near H/d = 0.0381 give R/d = 0.1267 to 0.1624, at 0.04
-   along (H/d)^0.8 this is 0.132 to 0.169. Near H/d = 0.3, R/d is 0.542; 12 % is what waves of such models that break by a
-   threshold are known to miss, and the scatter of the runs is 7 %. */
+/* Synolakis 1987, assets/validation/solitary-runup/runup.csv. Eight runs near H/d = 0.0381 give R/d = 0.1267 to 0.1624,
+   at 0.04 along (H/d)^0.8 this is 0.132 to 0.169. Near H/d = 0.3, R/d is 0.542; 12 % is what waves of such models that
+   break by a threshold are known to miss, and the scatter of the runs is 7 %. */
 static void waves_run_up_a_beach(void **state)
 {
     (void)state;
@@ -183,9 +187,12 @@ static void waves_run_up_a_beach(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_run_writes_its_files), cmocka_unit_test(bits_do_not_depend_on_threads),
-        cmocka_unit_test(check_reports),          cmocka_unit_test(bad_input_is_one_line),
-        cmocka_unit_test(earlier_files_are_kept_or_replaced), cmocka_unit_test(waves_run_up_a_beach),
+        cmocka_unit_test(a_run_writes_its_files),
+        cmocka_unit_test(bits_do_not_depend_on_threads),
+        cmocka_unit_test(check_reports),
+        cmocka_unit_test(bad_input_is_one_line),
+        cmocka_unit_test(earlier_files_are_kept_or_replaced),
+        cmocka_unit_test(waves_run_up_a_beach),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

@@ -109,11 +109,11 @@ static sb_status check_covered(const raster *r, sb_error *error)
             first = k;
         }
     if (missing == 0) return SB_OK;
-    return sb_fail(error, SB_BAD_INPUT,
-                   "offshore.terrain: no height at (%.9g, %.9g) m and at %zu other cells, expected grids that cover the "
-                   "model, or a smaller offshore.min and max",
-                   r->x + (double)(first % r->columns) * r->cell, r->y + (double)(first / r->columns) * r->cell,
-                   missing - 1);
+    return sb_fail(
+        error, SB_BAD_INPUT,
+        "offshore.terrain: no height at (%.9g, %.9g) m and at %zu other cells, expected grids that cover the "
+        "model, or a smaller offshore.min and max",
+        r->x + (double)(first % r->columns) * r->cell, r->y + (double)(first / r->columns) * r->cell, missing - 1);
 }
 
 sb_status sb_bed_fill(const sb_scene *scene, double *bed, size_t *uncovered, sb_error *error)
