@@ -1,5 +1,6 @@
 #include "app/commands.h"
 #include "app/fit.h"
+#include "app/grid_water.h"
 #include "app/options.h"
 #include "app/pace.h"
 #include "app/room.h"
@@ -154,12 +155,14 @@ int sb_command_check(int count, char **arguments)
         return 0;
     }
     if (status == SB_OK) status = sb_options_scene(&options, options.positional, &scene, &error);
-    if (status == SB_OK) status = sb_fit_check(&scene, &error);
-    if (status == SB_OK) status = sb_model_build(&scene, &model, &error);
-    if (status == SB_OK) {
+    const bool grid = status == SB_OK && scene.offshore.present;
+    if (grid) status = sb_grid_check(&scene, options.json, &error);
+    if (status == SB_OK && !grid) status = sb_fit_check(&scene, &error);
+    if (status == SB_OK && !grid) status = sb_model_build(&scene, &model, &error);
+    if (status == SB_OK && !grid) {
         estimate e = make_estimate(&scene, &model);
         (options.json ? report_json : report_text)(&scene, &model, &e);
-    } else {
+    } else if (status != SB_OK) {
         fprintf(stderr, "shorebreak: %s\n", error.text);
     }
     sb_model_free(&model);

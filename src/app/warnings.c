@@ -24,13 +24,14 @@ void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *con
         visit(context, text);
     }
     const sb_initial_wave *wave = &scene->wave;
-    const bool first = wave->theory == SB_SOLITARY_BOUSSINESQ;
+    static const char *const names[] = {"third-order", "boussinesq", "serre"};
+    const bool first = wave->theory != SB_SOLITARY_THIRD_ORDER;
     const double good = first ? 0.3 : 0.4; /* largest accurate height, as a fraction of the depth */
     if (wave->kind == SB_INITIAL_SOLITARY && wave->height > good * wave->depth) {
         snprintf(text, sizeof text,
                  "water.wave.height: %g m is %.2g of the depth: the theory %s is accurate up to %g; the wave will shed "
                  "water",
-                 wave->height, wave->height / wave->depth, first ? "boussinesq" : "third-order", good);
+                 wave->height, wave->height / wave->depth, names[wave->theory], good);
         visit(context, text);
     }
     if (scene->measure.interval > scene->duration) {

@@ -85,6 +85,7 @@ typedef struct sb_map_record {
     const float *flux;         /* m^3/s^2, depth times mean square of the horizontal speed */
     const float
         *arrival; /* s, when the depth at the start, or later the rise above it, was first at least the threshold */
+    const float *duration; /* s of inundation of cells that were dry at the start; NULL: not recorded */
 } sb_map_record;
 
 #endif

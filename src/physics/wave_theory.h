@@ -4,7 +4,8 @@
 
 typedef enum sb_solitary_theory {
     SB_SOLITARY_THIRD_ORDER, /* third order in H/h [Grimshaw 1971] */
-    SB_SOLITARY_BOUSSINESQ   /* first order in H/h [S16, eqs. 42 to 44] */
+    SB_SOLITARY_BOUSSINESQ,  /* first order in H/h [S16, eqs. 42 to 44] */
+    SB_SOLITARY_SERRE        /* exact for the Serre-Green-Naghdi equations: velocity constant over the depth */
 } sb_solitary_theory;
 
 /* Solitary wave of height H on depth h. Boussinesq's profile is not an exact solitary wave: at H/h = 0.3 it is narrower

@@ -210,6 +210,31 @@ typedef struct sb_measure {
     sb_map map;
 } sb_measure_settings;
 
+/* Heights on a grid of the depth-averaged model: terrain, or an uplift of the surface. */
+typedef struct sb_offshore_grid {
+    char *file;           /* absolute path */
+    double scale;         /* metres per file unit */
+    sb_positive positive; /* direction in which values are positive */
+    double datum;         /* m, added to the heights */
+    double x, y;          /* m, translation */
+} sb_offshore_grid;
+
+/* The depth-averaged model. A scene that has one has no particles. */
+typedef struct sb_offshore_settings {
+    bool present;
+    double cell;                       /* m */
+    double x_min, y_min, x_max, y_max; /* m, of the grid */
+    size_t terrain_count;              /* 0: the bodies are the terrain */
+    sb_offshore_grid *terrain;         /* later ones replace earlier ones where they have heights */
+    double level;                      /* m, still water */
+    double manning;                    /* s/m^(1/3) */
+    bool dispersion;
+    double threshold; /* m, depth or rise that counts in the maps */
+    bool has_uplift;
+    sb_offshore_grid uplift; /* m, added to the still surface at the start */
+    sb_initial_wave wave;
+} sb_offshore_settings;
+
 typedef struct sb_camera_key {
     double time;
     sb_vec3 eye, target;
@@ -261,10 +286,11 @@ typedef struct sb_scene {
     char *path; /* of the scene file, for messages */
     char *title;
     int dimensions;    /* 2 or 3 */
-    double resolution; /* m, rest inter-particle distance (delta r) */
+    double resolution; /* m, rest inter-particle distance (delta r); without particles the cell of offshore */
     double duration;   /* s */
     sb_fluid_properties fluid;
     sb_domain domain;
+    sb_offshore_settings offshore;
     sb_sea sea;
     size_t box_count;
     sb_fluid_box *boxes;

@@ -70,6 +70,7 @@ static sb_status finish_domain(sb_reader *reader, const sb_yaml *map, void *item
             return sb_reader_fail(reader, map, "max", "%c is not above that of domain.min, expected min < max",
                                   "xyz"[i]);
         /* Cell numbers of the neighbour search have 21 bits per axis. */
+        if (!(spacing > 0)) continue; /* a scene without particles */
         if (extent[i] / scene->resolution > 1e6)
             return sb_reader_fail(reader, map, "max",
                                   "%g m in %c is %.3g times the resolution of %g m, expected at "
@@ -103,6 +104,16 @@ static const sb_key fluid_keys[] = {
 
 static const sb_table fluid_table = {SB_KEY_ROWS(fluid_keys)};
 
+enum { PARTICLES = 1, OFFSHORE = 2 };
+
+static unsigned scene_variant(const void *item, const sb_yaml *map)
+{
+    const bool offshore = map ? sb_yaml_child(map, "offshore") != NULL : ((const sb_scene *)item)->offshore.present;
+    return offshore ? OFFSHORE : PARTICLES;
+}
+
+#define WITH_PARTICLES .applies = PARTICLES, .only = "a scene without offshore"
+
 /* clang-format off */
 static const sb_key scene_keys[] = {
     {.name = "title", .type = SB_KEY_TEXT, SB_KEY_AT(sb_scene, title), .fallback = "\"\"",
@@ -111,7 +122,7 @@ static const sb_key scene_keys[] = {
      .max = 3, .fallback = "3",
      .doc = "Number of dimensions: 3, or 2 for a vertical slice in x and z."},
     {.name = "resolution", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_scene, resolution), .unit = "m",
-     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
+     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, WITH_PARTICLES,
      .doc = "Particle spacing at rest. Smaller values resolve more detail and take longer."},
     {.name = "duration", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_scene, duration), .unit = "s",
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED | SB_KEY_FREE,
@@ -120,15 +131,18 @@ static const sb_key scene_keys[] = {
      .doc = "Properties of the fluid."},
     {.name = "domain", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, domain), .table = &domain_table,
      .flags = SB_KEY_REQUIRED, .doc = "The box that contains the simulation."},
+    {.name = "offshore", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, offshore), .table = &sb_offshore_table,
+     .applies = OFFSHORE, .derived = "none", .only = "depth-averaged water",
+     .doc = "Depth-averaged water on a grid, without particles; see [the depth-averaged model](offshore.md)."},
     {.name = "numerics", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, numerics),
      .table = &sb_numerics_table,
      .doc = "Numerical parameters; a preset sets the ones that are not given."},
     {.name = "water", .type = SB_KEY_BLOCK, .offset = 0, .table = &sb_water_table,
-     .flags = SB_KEY_REQUIRED, .doc = "The water at the start."},
+     .flags = SB_KEY_REQUIRED, WITH_PARTICLES, .doc = "The water at the start."},
     {.name = "bodies", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_scene, bodies, body_count),
      .table = &sb_body_table, .doc = "Solids: terrain, buildings, paddles."},
     {.name = "wavemakers", .type = SB_KEY_LIST,
-     SB_KEY_ITEMS(sb_scene, wavemakers, wavemaker_count), .table = &sb_wavemaker_table,
+     SB_KEY_ITEMS(sb_scene, wavemakers, wavemaker_count), .table = &sb_wavemaker_table, WITH_PARTICLES,
      .doc = "Laws by which bodies move."},
     {.name = "measure", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, measure),
      .table = &sb_measure_table, .doc = "Measurements, and their interval."},
@@ -147,6 +161,7 @@ static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_scene *scene = item;
     if (scene->control.enabled) scene->stream.enabled = true; /* it has the run's id and sends the replies */
+    if (scene->offshore.present) return SB_OK;
     sb_vec3 size = sb_sub(scene->domain.max, scene->domain.min);
     double least = size.x < size.z ? size.x : size.z;
     if (scene->dimensions == 3 && size.y < least) least = size.y;
@@ -159,4 +174,5 @@ static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)
     return SB_OK;
 }
 
-const sb_table sb_scene_table = {SB_KEY_ROWS(scene_keys), .size = sizeof(sb_scene), .finish = finish_scene};
+const sb_table sb_scene_table = {SB_KEY_ROWS(scene_keys), .size = sizeof(sb_scene), .variant = scene_variant,
+                                 .finish = finish_scene};
