@@ -1,5 +1,5 @@
 /* Cnoidal waves: long periodic waves of constant form [Korteweg and de Vries 1895; constants as in Svendsen 2006,
-   Introduction to Nearshore Hydrodynamics, section 9.4]. */
+   Introduction to Nearshore Hydrodynamics]. */
 #ifndef SB_PHYSICS_CNOIDAL_H
 #define SB_PHYSICS_CNOIDAL_H
 

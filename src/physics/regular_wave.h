@@ -7,7 +7,7 @@
 typedef enum sb_wave_order {
     SB_WAVE_AUTO,    /* second order below the limit of the Ursell number, otherwise cnoidal */
     SB_WAVE_LINEAR,  /* first order in height over length */
-    SB_WAVE_STOKES2, /* second order [Stokes 1847; Dean and Dalrymple 1991, section 11.2] */
+    SB_WAVE_STOKES2, /* second order [Stokes 1847; Dean and Dalrymple 1991] */
     SB_WAVE_CNOIDAL
 } sb_wave_order;
 

@@ -6,6 +6,7 @@
 #include "base/status.h"
 #include "base/vec.h"
 #include "physics/kernel.h"
+#include "physics/regular_wave.h"
 #include "physics/wave_theory.h"
 #include "physics/wavemaker.h"
 
@@ -53,6 +54,36 @@ typedef struct sb_initial_wave {
     int direction;             /* +1 towards +x, -1 towards -x */
     sb_solitary_theory theory; /* solitary wave only */
 } sb_initial_wave;
+
+/* Where the surface and velocity of the water at the sides of kind `sea` come from. NONE: still water. */
+typedef enum sb_given_source { SB_GIVEN_NONE, SB_GIVEN_THEORY, SB_GIVEN_TABLE, SB_GIVEN_RECORD } sb_given_source;
+typedef enum sb_given_wave { SB_GIVEN_SOLITARY, SB_GIVEN_REGULAR, SB_GIVEN_COMPONENTS } sb_given_wave;
+typedef enum sb_given_unit { SB_UNIT_M, SB_UNIT_CM, SB_UNIT_MM, SB_UNIT_FT } sb_given_unit;
+
+typedef struct sb_given_component {
+    double amplitude, period, direction, phase; /* m, s, degrees, degrees */
+} sb_given_component;
+
+/* The block `sea`. Values of other sources and waves are 0. */
+typedef struct sb_given_sea {
+    sb_given_source source;
+    double level, start; /* m, still-water level; s, time of the run at which the source has 0 s */
+    /* theory */
+    sb_given_wave wave;
+    double depth, height, period; /* m, m, s */
+    double direction;             /* degrees from +x towards +y, of travel */
+    double origin[2];             /* m, where phases and times are given */
+    double ramp;                  /* s in which the wave grows from nothing; 0: none */
+    sb_wave_order order;          /* regular waves */
+    sb_solitary_theory theory;    /* solitary wave */
+    size_t component_count;
+    sb_given_component *components;
+    /* table, record */
+    char *file; /* absolute path */
+    sb_given_unit unit;
+    double datum;            /* m, z of the table's zero */
+    char plane[SB_NAME_MAX]; /* of the record */
+} sb_given_sea;
 
 typedef enum sb_preset { SB_PRESET_DEFAULT, SB_PRESET_PAPER } sb_preset;
 typedef enum sb_solver { SB_SOLVER_JACOBI, SB_SOLVER_CHEBYSHEV, SB_SOLVER_CG } sb_solver;
@@ -269,6 +300,7 @@ typedef struct sb_scene {
     size_t box_count;
     sb_fluid_box *boxes;
     sb_initial_wave wave;
+    sb_given_sea given;
     sb_numerics numerics;
     size_t body_count;
     sb_body *bodies;

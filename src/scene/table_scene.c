@@ -103,6 +103,14 @@ static const sb_key fluid_keys[] = {
 
 static const sb_table fluid_table = {SB_KEY_ROWS(fluid_keys)};
 
+enum { GIVEN = 1 };
+
+static unsigned scene_variant(const void *item, const sb_yaml *map)
+{
+    bool given = map ? sb_yaml_child(map, "sea") != NULL : ((const sb_scene *)item)->given.source != SB_GIVEN_NONE;
+    return given ? GIVEN : 0;
+}
+
 /* clang-format off */
 static const sb_key scene_keys[] = {
     {.name = "title", .type = SB_KEY_TEXT, SB_KEY_AT(sb_scene, title), .fallback = "\"\"",
@@ -125,6 +133,9 @@ static const sb_key scene_keys[] = {
      .doc = "Numerical parameters; a preset sets the ones that are not given."},
     {.name = "water", .type = SB_KEY_BLOCK, .offset = 0, .table = &sb_water_table,
      .flags = SB_KEY_REQUIRED, .doc = "The water at the start."},
+    {.name = "sea", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, given), .table = &sb_given_table,
+     .applies = GIVEN, .only = "given water", .derived = "still water",
+     .doc = "Water that is given at the sides of kind `sea`; see [open sea](open-sea.md)."},
     {.name = "bodies", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_scene, bodies, body_count),
      .table = &sb_body_table, .doc = "Solids: terrain, buildings, paddles."},
     {.name = "wavemakers", .type = SB_KEY_LIST,
@@ -159,4 +170,5 @@ static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)
     return SB_OK;
 }
 
-const sb_table sb_scene_table = {SB_KEY_ROWS(scene_keys), .size = sizeof(sb_scene), .finish = finish_scene};
+const sb_table sb_scene_table = {SB_KEY_ROWS(scene_keys), .size = sizeof(sb_scene), .variant = scene_variant,
+                                 .finish = finish_scene};
