@@ -45,6 +45,15 @@ typedef struct sb_runup_record {
     double apart;  /* m of the line that only unconnected water covers: puddles, thin films, drops */
 } sb_runup_record;
 
+/* The waves of one period at a set of gauges in one window. NaN: the gauges do not determine them. */
+typedef struct sb_reflection_record {
+    size_t set, harmonic;       /* harmonic: 1 for the set's period, 2 for half of it, ... */
+    double from, time;          /* s, the window */
+    double period, wavelength;  /* s, m */
+    double incident, reflected; /* m, amplitudes */
+    double misfit, separation;  /* m, and a number from 0 to 1: see physics/reflection.h */
+} sb_reflection_record;
+
 /* At the end of the first step that passed a multiple of the interval. */
 typedef struct sb_energy_record {
     double time, kinetic, potential, mass; /* s, J, J, kg */
@@ -62,6 +71,8 @@ typedef struct sb_measure_records {
     const sb_flow_record *flows;
     const sb_runup_record *runups;
     const sb_energy_record *energies;
+    size_t reflection_count;
+    const sb_reflection_record *reflections;
 } sb_measure_records;
 
 /* Totals of one body over the whole run. */

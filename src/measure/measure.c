@@ -4,8 +4,9 @@
 #include "measure/patch.h"
 #include "measure/state.h"
 
-static const size_t record_size[LISTS] = {sizeof(sb_force_record), sizeof(sb_gauge_record), sizeof(sb_probe_record),
-                                          sizeof(sb_flow_record),  sizeof(sb_runup_record), sizeof(sb_energy_record)};
+static const size_t record_size[LISTS] = {
+    sizeof(sb_force_record), sizeof(sb_gauge_record),  sizeof(sb_probe_record),     sizeof(sb_flow_record),
+    sizeof(sb_runup_record), sizeof(sb_energy_record), sizeof(sb_reflection_record)};
 
 static void *append(sb_measure *measure, int kind)
 {
@@ -82,6 +83,25 @@ static sb_status record_probe(sb_measure *measure, const sb_measure_view *view, 
                          &record->pressure, error);
 }
 
+/* Adds the gauges' records of this instant, which are the last ones, to the sets of reflections. */
+static sb_status record_reflections(sb_measure *measure, double time, sb_error *error)
+{
+    const sb_measure_settings *settings = &measure->scene->measure;
+    const list *rows = &measure->lists[GAUGES];
+    sb_status status = SB_OK;
+    for (size_t i = 0; status == SB_OK && i < settings->reflection_count; i++) {
+        bool finished;
+        const sb_gauge_record *gauges = (const sb_gauge_record *)rows->items + (rows->count - settings->gauge_count);
+        status = sb_reflections_add(measure, i, gauges, time, &finished, error);
+        for (int h = 0; status == SB_OK && finished && h < settings->reflections[i].harmonics; h++) {
+            sb_reflection_record *record = append(measure, REFLECTIONS);
+            if (!record) return sb_fail_memory(error, "reflection records");
+            *record = measure->splits[i].latest[h];
+        }
+    }
+    return status;
+}
+
 /* Records gauges, probes and run-up lines at one instant: a fraction of the last step, or, if negative, the creation.
  */
 static sb_status record_instants(sb_measure *measure, const sb_measure_view *view, double time, double fraction,
@@ -105,6 +125,7 @@ static sb_status record_instants(sb_measure *measure, const sb_measure_view *vie
         else
             state->had_value = true;
     }
+    if (status == SB_OK) status = record_reflections(measure, time, error);
     for (size_t i = 0; status == SB_OK && i < settings->probe_count; i++)
         status = record_probe(measure, view, i, time, fraction, error);
     for (size_t i = 0; status == SB_OK && i < settings->runup_count; i++) {
@@ -165,7 +186,9 @@ static void publish(sb_measure *measure)
                                            .runup_count = lists[RUNUPS].count,
                                            .runups = lists[RUNUPS].items,
                                            .energy_count = lists[ENERGIES].count,
-                                           .energies = lists[ENERGIES].items};
+                                           .energies = lists[ENERGIES].items,
+                                           .reflection_count = lists[REFLECTIONS].count,
+                                           .reflections = lists[REFLECTIONS].items};
 }
 
 static void note_skipped(sb_measure *measure)
@@ -244,6 +267,7 @@ sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, sb_sim
     sb_measure_view view = view_of(made, sim, 0);
     sb_status status = prepare_bodies(made, sim, error);
     if (status == SB_OK) status = prepare_fields(made, &view, error);
+    if (status == SB_OK) status = sb_reflections_create(made, error);
     if (status == SB_OK) status = sb_wall_probes_start(made, sim, error);
     if (status == SB_OK) status = record_instants(made, &view, made->time, -1, error);
     if (status == SB_OK) status = record_flows(made, made->time, 0, error);
@@ -277,6 +301,7 @@ void sb_measure_destroy(sb_measure *measure)
     sb_free(measure->planes);
     sb_free(measure->states);
     sb_free(measure->bodies);
+    sb_reflections_destroy(measure);
     sb_map_destroy(measure->map);
     sb_cloud_free(&measure->cloud);
     sb_free(measure);
@@ -386,5 +411,6 @@ size_t sb_measure_bytes(const sb_measure *measure)
         bytes += sizeof *measure->planes + sb_plane_counter_bytes(measure->counters[i]);
     for (size_t i = 0; i < measure->scene->measure.probe_count; i++)
         bytes += sizeof(sb_patch *) + sizeof *measure->probes + sb_patch_bytes(measure->patches[i]);
+    bytes += measure->split_count * sizeof *measure->split_rows;
     return bytes + (measure->map ? sb_map_bytes(measure->map) : 0);
 }

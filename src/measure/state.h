@@ -11,7 +11,7 @@ typedef struct list {
     size_t count, capacity;
 } list;
 
-enum { FORCES, GAUGES, PROBES, FLOWS, RUNUPS, ENERGIES, LISTS };
+enum { FORCES, GAUGES, PROBES, FLOWS, RUNUPS, ENERGIES, REFLECTIONS, LISTS };
 
 /* Impulses at the creation, at the last multiple of the interval and at the last step's end. */
 typedef struct body_state {
@@ -36,6 +36,13 @@ typedef struct gauge_state {
     double deepest;
 } gauge_state;
 
+/* A set of gauges: the sums of each gauge's fit since `from` (s), and the rows of the last window. */
+typedef struct split_state {
+    double from;
+    double *sums;
+    sb_reflection_record *latest; /* one per harmonic; their period is 0 before a window has ended */
+} split_state;
+
 enum { MAX_SKIPPED = 8 };
 
 struct sb_measurements {
@@ -52,6 +59,9 @@ struct sb_measurements {
     gauge_state *gauges;
     sb_patch **patches; /* one per probe */
     probe_state *probes;
+    split_state *splits; /* one per set of measure.reflections */
+    size_t split_count;  /* rows of all sets */
+    sb_reflection_record *split_rows;
     sb_map_field *map;
     sb_cloud cloud;
     list lists[LISTS];
@@ -65,5 +75,14 @@ sb_status sb_wall_probes_start(const sb_measure *measure, sb_sim *sim, sb_error 
 void sb_wall_probes_step(sb_measure *measure, const sb_sim *sim, double taken);
 /* Returns the mean pressure of the interval that ends at this fraction of the last step, and begins the next one. */
 double sb_wall_probe_mean(sb_measure *measure, size_t probe, double fraction);
+
+/* reflections.c: the states of all sets. */
+sb_status sb_reflections_create(sb_measure *measure, sb_error *error);
+void sb_reflections_destroy(sb_measure *measure);
+/* Adds the row of all gauges at `time` to a set. *finished: its window ended, and its latest rows are new. */
+sb_status sb_reflections_add(sb_measure *measure, size_t set, const sb_gauge_record *gauges, double time,
+                             bool *finished, sb_error *error);
+void sb_reflections_save(const sb_measure *measure, sb_archive_out *out);
+void sb_reflections_load(sb_measure *measure, sb_archive_in *in);
 
 #endif

@@ -165,6 +165,28 @@ static void write_runups(FILE *stream, const sb_scene *scene, const sb_model *mo
     put(stream, row->apart);
 }
 
+static bool has_reflections(const sb_scene *scene)
+{
+    return scene->measure.reflection_count > 0;
+}
+
+static size_t count_reflections(const sb_measure_records *records)
+{
+    return records->reflection_count;
+}
+
+static void write_reflections(FILE *stream, const sb_scene *scene, const sb_model *model,
+                              const sb_measure_records *records, size_t i)
+{
+    (void)model;
+    const sb_reflection_record *row = &records->reflections[i];
+    begin(stream, row->time, scene->measure.reflections[row->set].name);
+    const double values[] = {
+        row->from,      (double)row->harmonic,          row->period, row->wavelength, row->incident,
+        row->reflected, row->reflected / row->incident, row->misfit, row->separation};
+    for (size_t c = 0; c < sizeof values / sizeof *values; c++) put(stream, values[c]);
+}
+
 const sb_csv_table sb_csv_tables[] = {
     {.name = "forces",
      .header = "time_s,body,Fx_N,Fy_N,Fz_N,Mx_Nm,My_Nm,Mz_Nm,Fx_pressure_N,Fy_pressure_N,"
@@ -210,6 +232,14 @@ const sb_csv_table sb_csv_tables[] = {
      .wanted = has_lines,
      .count = count_runups,
      .write = write_runups},
+    {.name = "reflections",
+     .header =
+         "time_s,set,from_s,harmonic,period_s,wavelength_m,incident_m,reflected_m,coefficient,misfit_m,separation",
+     .flat_header =
+         "time_s,set,from_s,harmonic,period_s,wavelength_m,incident_m,reflected_m,coefficient,misfit_m,separation",
+     .wanted = has_reflections,
+     .count = count_reflections,
+     .write = write_reflections},
 };
 _Static_assert(sizeof sb_csv_tables == SB_CSV_TABLES * sizeof *sb_csv_tables, "one mark per table");
 

@@ -222,6 +222,23 @@ typedef struct sb_runup_line {
     double ax, ay, bx, by;
 } sb_runup_line;
 
+/* The name of a gauge. */
+typedef struct sb_gauge_name {
+    char name[SB_NAME_MAX];
+} sb_gauge_name;
+/* Gauges in a line, whose waves are split into those that travel from the first gauge to the last, and those that come
+   back. */
+typedef struct sb_reflection_set {
+    char name[SB_NAME_MAX];
+    size_t gauge_count; /* at least 3 */
+    sb_gauge_name *gauges;
+    double period; /* s */
+    int harmonics; /* period, period/2, ..., period/harmonics are split */
+    double depth;  /* m, still-water depth, for the wave numbers */
+    double start;  /* s */
+    double window; /* s; 0: from the start to the run's end */
+} sb_reflection_set;
+
 typedef struct sb_map {
     bool present;
     double x_min, y_min, x_max, y_max, cell; /* m */
@@ -238,6 +255,8 @@ typedef struct sb_measure {
     sb_flow_plane *planes;
     size_t runup_count;
     sb_runup_line *runups;
+    size_t reflection_count;
+    sb_reflection_set *reflections;
     sb_map map;
 } sb_measure_settings;
 
@@ -318,6 +337,11 @@ static inline bool sb_scene_repeats(const sb_scene *scene, int axis)
 {
     return scene->domain.side[2 * axis] == SB_SIDE_PERIODIC && !(scene->dimensions == 2 && axis == 1);
 }
+
+/* Index of the gauge of that name; gauge_count if there is none. */
+size_t sb_scene_gauge(const sb_scene *scene, const char *name);
+/* Distance of gauge i of a set from its first gauge, along the line to the last one, m. */
+double sb_reflection_place(const sb_scene *scene, const sb_reflection_set *set, size_t i);
 
 /* The sides' names in a scene: "x_min" and so on. */
 extern const char *const sb_side_names[SB_SIDES];

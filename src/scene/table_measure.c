@@ -223,6 +223,9 @@ static const sb_key measure_keys[] = {
      SB_KEY_ITEMS(sb_measure_settings, runups, runup_count), .table = &runup_table,
      .doc = "Lines along which run-up and front are measured, of the water that is connected with the water at the "
             "line's first end. Other water on the line is measured separately."},
+    {.name = "reflections", .type = SB_KEY_LIST,
+     SB_KEY_ITEMS(sb_measure_settings, reflections, reflection_count), .table = &sb_reflection_table,
+     .doc = "Sets of gauges from which incident and reflected waves are found."},
     {.name = "map", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_measure_settings, map), .table = &map_table,
      .applies = MAP, .only = "maps", .derived = "no maps",
      .doc = "Maps of greatest depth, speed, momentum flux and of arrival time on a horizontal "

@@ -31,7 +31,9 @@ static const char everything[] =
     "  - {name: w, body: b-1, kind: stroke, stroke: 1, speed: 0.1, direction: [1, 1, 1],\n"
     "     start: 0.1, after: return, return_time: 3}\n"
     "  - {name: v, body: c.d, kind: goring, height: 0.1, depth: 0.3, start: command}\n"
-    "measure:\n  interval: 0.001\n  gauges: [{name: g, x: 1, y: 0.5}]\n"
+    "measure:\n  interval: 0.001\n  gauges: [{name: g, x: 1, y: 0.5}, {name: h, x: 1.1, y: 0.6}, {name: i, x: 1.3, y: "
+    "0.8}]\n"
+    "  reflections: [{name: s, gauges: [g, {name: h}, i], period: 0.7, depth: 0.3, window: 2}]\n"
     "  probes: [{name: p, at: [1, 0.5, 0.1], radius: 0.1}]\n"
     "  planes: [{name: q, from: [1, 0], to: [1, 1], z_min: 0.1, z_max: 0.9}]\n"
     "  runups: [{name: r, from: [1, 0], to: [1, 1]}]\n"
@@ -123,6 +125,15 @@ static void same_scene(sb_scene *a, sb_scene *b)
     SAME_ITEMS(&a->measure, &b->measure, probes, probe_count);
     SAME_ITEMS(&a->measure, &b->measure, planes, plane_count);
     SAME_ITEMS(&a->measure, &b->measure, runups, runup_count);
+    assert_int_equal(a->measure.reflection_count, b->measure.reflection_count);
+    for (size_t i = 0; i < a->measure.reflection_count; i++) {
+        sb_reflection_set one, other;
+        memcpy(&one, &a->measure.reflections[i], sizeof one);
+        memcpy(&other, &b->measure.reflections[i], sizeof other);
+        SAME_ITEMS(&one, &other, gauges, gauge_count);
+        one.gauges = other.gauges = NULL;
+        assert_memory_equal(&one, &other, sizeof one);
+    }
     assert_memory_equal(&a->measure.map, &b->measure.map, sizeof a->measure.map);
     same_render(&a->render, &b->render);
     assert_int_equal(a->control.enabled, b->control.enabled);
