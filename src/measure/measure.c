@@ -5,8 +5,8 @@
 #include "measure/state.h"
 
 static const size_t record_size[LISTS] = {
-    sizeof(sb_force_record), sizeof(sb_gauge_record),  sizeof(sb_probe_record),     sizeof(sb_flow_record),
-    sizeof(sb_runup_record), sizeof(sb_energy_record), sizeof(sb_reflection_record)};
+    sizeof(sb_force_record), sizeof(sb_gauge_record),  sizeof(sb_probe_record),      sizeof(sb_flow_record),
+    sizeof(sb_runup_record), sizeof(sb_energy_record), sizeof(sb_reflection_record), sizeof(sb_water_record)};
 
 static void *append(sb_measure *measure, int kind)
 {
@@ -81,6 +81,22 @@ static sb_status record_probe(sb_measure *measure, const sb_measure_view *view, 
     record->pressure = mean ? sb_wall_probe_mean(measure, probe, fraction) : (double)NAN;
     return sb_probe_read(view, &measure->scene->measure.probes[probe], measure->patches[probe], &record->velocity,
                          &record->pressure, error);
+}
+
+/* Records the water along the recorded planes; `row` is the number of the interval that ends. */
+static sb_status record_waters(sb_measure *measure, const sb_measure_view *view, double time, uint64_t row,
+                               sb_error *error)
+{
+    sb_status status = SB_OK;
+    for (size_t i = 0; i < measure->scene->measure.plane_count; i++) {
+        const size_t count = sb_records_points(measure, i, row);
+        for (size_t p = 0; status == SB_OK && p < count; p++) {
+            sb_water_record *record = append(measure, WATERS);
+            if (!record) return sb_fail_memory(error, "records of planes");
+            status = sb_records_read(measure, view, i, p, time, record, error);
+        }
+    }
+    return status;
 }
 
 /* Adds the gauges' records of this instant, which are the last ones, to the sets of reflections. */
@@ -188,7 +204,9 @@ static void publish(sb_measure *measure)
                                            .energy_count = lists[ENERGIES].count,
                                            .energies = lists[ENERGIES].items,
                                            .reflection_count = lists[REFLECTIONS].count,
-                                           .reflections = lists[REFLECTIONS].items};
+                                           .reflections = lists[REFLECTIONS].items,
+                                           .water_count = lists[WATERS].count,
+                                           .waters = lists[WATERS].items};
 }
 
 static void note_skipped(sb_measure *measure)
@@ -268,8 +286,10 @@ sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, sb_sim
     sb_status status = prepare_bodies(made, sim, error);
     if (status == SB_OK) status = prepare_fields(made, &view, error);
     if (status == SB_OK) status = sb_reflections_create(made, error);
+    if (status == SB_OK) status = sb_records_create(made, error);
     if (status == SB_OK) status = sb_wall_probes_start(made, sim, error);
     if (status == SB_OK) status = record_instants(made, &view, made->time, -1, error);
+    if (status == SB_OK) status = record_waters(made, &view, made->time, made->next - 1, error);
     if (status == SB_OK) status = record_flows(made, made->time, 0, error);
     if (status == SB_OK) status = record_layers(made, &view, error);
     if (status == SB_OK) status = record_energy(made, sim, error);
@@ -302,6 +322,7 @@ void sb_measure_destroy(sb_measure *measure)
     sb_free(measure->states);
     sb_free(measure->bodies);
     sb_reflections_destroy(measure);
+    sb_records_destroy(measure);
     sb_map_destroy(measure->map);
     sb_cloud_free(&measure->cloud);
     sb_free(measure);
@@ -317,6 +338,7 @@ static sb_status record_boundary(sb_measure *measure, const sb_sim *sim, double 
     sb_status status = record_forces(measure, sim, time, fraction, error);
     if (status == SB_OK) status = record_flows(measure, time, fraction, error);
     if (status == SB_OK) status = record_instants(measure, &view, time, fraction, error);
+    if (status == SB_OK) status = record_waters(measure, &view, time, measure->next, error);
     return status;
 }
 

@@ -11,7 +11,7 @@ typedef struct list {
     size_t count, capacity;
 } list;
 
-enum { FORCES, GAUGES, PROBES, FLOWS, RUNUPS, ENERGIES, REFLECTIONS, LISTS };
+enum { FORCES, GAUGES, PROBES, FLOWS, RUNUPS, ENERGIES, REFLECTIONS, WATERS, LISTS };
 
 /* Impulses at the creation, at the last multiple of the interval and at the last step's end. */
 typedef struct body_state {
@@ -43,6 +43,9 @@ typedef struct split_state {
     sb_reflection_record *latest; /* one per harmonic; their period is 0 before a window has ended */
 } split_state;
 
+/* See record.c. */
+typedef struct sb_plane_record sb_plane_record;
+
 enum { MAX_SKIPPED = 8 };
 
 struct sb_measurements {
@@ -55,7 +58,8 @@ struct sb_measurements {
     sb_body_record *bodies;
     plane_state *planes;
     sb_plane_counter **counters;
-    sb_floors *floors; /* one per gauge */
+    sb_plane_record **records; /* one per plane, NULL for planes without; NULL: no plane has one */
+    sb_floors *floors;         /* one per gauge */
     gauge_state *gauges;
     sb_patch **patches; /* one per probe */
     probe_state *probes;
@@ -75,6 +79,15 @@ sb_status sb_wall_probes_start(const sb_measure *measure, sb_sim *sim, sb_error 
 void sb_wall_probes_step(sb_measure *measure, const sb_sim *sim, double taken);
 /* Returns the mean pressure of the interval that ends at this fraction of the last step, and begins the next one. */
 double sb_wall_probe_mean(sb_measure *measure, size_t probe, double fraction);
+
+/* record.c: the points of the planes that are recorded. */
+sb_status sb_records_create(sb_measure *measure, sb_error *error);
+void sb_records_destroy(sb_measure *measure);
+/* The number of points that a plane records in this row; rows are multiples of the interval. */
+size_t sb_records_points(const sb_measure *measure, size_t plane, uint64_t row);
+/* Reads one of these points. */
+sb_status sb_records_read(const sb_measure *measure, const sb_measure_view *view, size_t plane, size_t index,
+                          double time, sb_water_record *row, sb_error *error);
 
 /* reflections.c: the states of all sets. */
 sb_status sb_reflections_create(sb_measure *measure, sb_error *error);

@@ -1,6 +1,8 @@
 /* The tables of a run: what is in each line. To add a table, add a row below, and one to SB_CSV_TABLES. */
 #include "output/csv_tables.h"
 
+#include "scene/record_columns.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -187,6 +189,33 @@ static void write_reflections(FILE *stream, const sb_scene *scene, const sb_mode
     for (size_t c = 0; c < sizeof values / sizeof *values; c++) put(stream, values[c]);
 }
 
+static bool has_record(const sb_scene *scene)
+{
+    bool any = false;
+    for (size_t i = 0; i < scene->measure.plane_count; i++) any = any || scene->measure.planes[i].record;
+    return any;
+}
+
+static size_t count_waters(const sb_measure_records *records)
+{
+    return records->water_count;
+}
+
+static void write_waters(FILE *stream, const sb_scene *scene, const sb_model *model, const sb_measure_records *records,
+                         size_t i)
+{
+    (void)model;
+    const sb_water_record *row = &records->waters[i];
+    begin(stream, row->time, scene->measure.planes[row->plane].name);
+    put(stream, row->x);
+    put(stream, row->y);
+    put(stream, row->surface);
+    put(stream, row->bed);
+    for (int j = 0; j < SB_RECORD_LAYERS; j++) put(stream, row->velocity[j].x);
+    for (int j = 0; j < SB_RECORD_LAYERS; j++) put(stream, row->velocity[j].y);
+    for (int j = 0; j < SB_RECORD_LAYERS; j++) put(stream, row->velocity[j].z);
+}
+
 const sb_csv_table sb_csv_tables[] = {
     {.name = "forces",
      .header = "time_s,body,Fx_N,Fy_N,Fz_N,Mx_Nm,My_Nm,Mz_Nm,Fx_pressure_N,Fy_pressure_N,"
@@ -240,6 +269,12 @@ const sb_csv_table sb_csv_tables[] = {
      .wanted = has_reflections,
      .count = count_reflections,
      .write = write_reflections},
+    {.name = "record",
+     .header = SB_RECORD_HEADER,
+     .flat_header = SB_RECORD_HEADER,
+     .wanted = has_record,
+     .count = count_waters,
+     .write = write_waters},
 };
 _Static_assert(sizeof sb_csv_tables == SB_CSV_TABLES * sizeof *sb_csv_tables, "one mark per table");
 

@@ -215,6 +215,9 @@ typedef struct sb_probe {
 typedef struct sb_flow_plane {
     char name[SB_NAME_MAX];
     double ax, ay, bx, by, z_min, z_max;
+    bool record;            /* surface and velocities along it are written to record.csv */
+    double record_interval; /* s between rows, a multiple of the interval; 0: not recorded */
+    double record_spacing;  /* m between points along the plane; 0: not recorded, or 2D */
 } sb_flow_plane;
 /* A line from (ax, ay) to (bx, by). Run-up is the highest z of connected water within one spacing of it. */
 typedef struct sb_runup_line {

@@ -24,9 +24,10 @@ static const char measured[] = "dimensions: 2\n"
                                "wavemakers: [{name: w, body: paddle, kind: stroke, stroke: 0.2, speed: 0.5}]\n"
                                "measure:\n"
                                "  interval: 0.03\n"
-                               "  gauges: [{name: wet, x: 0.8}, {name: dry, x: 2.8}]\n"
+                               "  gauges: [{name: wet, x: 0.8}, {name: near, x: 0.9}, {name: dry, x: 2.8}]\n"
+                               "  reflections: [{name: r, gauges: [wet, near, dry], period: 0.2, depth: 0.5, harmonics: 2}]\n"
                                "  probes: [{name: deep, at: [0.8, 0.2]}]\n"
-                               "  planes: [{name: lip, from: [1.45]}]\n"
+                               "  planes: [{name: lip, from: [1.45], record: true, record_interval: 0.06}]\n"
                                "  runups: [{name: floor, from: [0.3], to: [2.9]}]\n"
                                "  map: {}\n"
                                "output: {particle_interval: 0.1, plots: false}\n";
@@ -44,6 +45,8 @@ const char *const pair_tables[] = {"forces.csv",
                                    "energy.csv",
                                    "overtopping.csv",
                                    "runup.csv",
+                                   "reflections.csv",
+                                   "record.csv",
                                    "maps/max_depth.asc",
                                    "maps/max_speed.asc",
                                    "maps/arrival_time.asc",

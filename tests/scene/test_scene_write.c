@@ -35,7 +35,7 @@ static const char everything[] =
     "0.8}]\n"
     "  reflections: [{name: s, gauges: [g, {name: h}, i], period: 0.7, depth: 0.3, window: 2}]\n"
     "  probes: [{name: p, at: [1, 0.5, 0.1], radius: 0.1}]\n"
-    "  planes: [{name: q, from: [1, 0], to: [1, 1], z_min: 0.1, z_max: 0.9}]\n"
+    "  planes: [{name: q, from: [1, 0], to: [1, 1], z_min: 0.1, z_max: 0.9, record: true, record_interval: 0.003}]\n"
     "  runups: [{name: r, from: [1, 0], to: [1, 1]}]\n"
     "  map: {min: [0, 0], max: [1, 1], cell: 0.3, threshold: 0.07}\n"
     "render:\n  interval: 0.1\n  speed_max: 3\n  video: false\n  cameras:\n"
