@@ -106,13 +106,13 @@ static sb_status record_reflections(sb_measure *measure, double time, sb_error *
     const list *rows = &measure->lists[GAUGES];
     sb_status status = SB_OK;
     for (size_t i = 0; status == SB_OK && i < settings->reflection_count; i++) {
-        bool finished;
+        const sb_reflection_record *found;
         const sb_gauge_record *gauges = (const sb_gauge_record *)rows->items + (rows->count - settings->gauge_count);
-        status = sb_reflections_add(measure, i, gauges, time, &finished, error);
-        for (int h = 0; status == SB_OK && finished && h < settings->reflections[i].harmonics; h++) {
+        status = sb_reflections_add(measure, i, gauges, time, &found, error);
+        for (int h = 0; status == SB_OK && found && h < settings->reflections[i].harmonics; h++) {
             sb_reflection_record *record = append(measure, REFLECTIONS);
             if (!record) return sb_fail_memory(error, "reflection records");
-            *record = measure->splits[i].latest[h];
+            *record = found[h];
         }
     }
     return status;

@@ -36,11 +36,11 @@ typedef struct gauge_state {
     double deepest;
 } gauge_state;
 
-/* A set of gauges: the sums of each gauge's fit since `from` (s), and the rows of the last window. */
+/* A set of gauges: sums of each gauge's fit in the window that began at `from`, and since the set's start up to `last`.
+ */
 typedef struct split_state {
-    double from;
-    double *sums;
-    sb_reflection_record *latest; /* one per harmonic; their period is 0 before a window has ended */
+    double from, last; /* s */
+    double *window, *whole;
 } split_state;
 
 /* See record.c. */
@@ -63,9 +63,9 @@ struct sb_measurements {
     gauge_state *gauges;
     sb_patch **patches; /* one per probe */
     probe_state *probes;
-    split_state *splits; /* one per set of measure.reflections */
-    size_t split_count;  /* rows of all sets */
-    sb_reflection_record *split_rows;
+    split_state *splits;              /* one per set of measure.reflections */
+    size_t split_count;               /* rows of all sets */
+    sb_reflection_record *split_rows; /* scratch: of one window of each set */
     sb_map_field *map;
     sb_cloud cloud;
     list lists[LISTS];
@@ -92,9 +92,9 @@ sb_status sb_records_read(const sb_measure *measure, const sb_measure_view *view
 /* reflections.c: the states of all sets. */
 sb_status sb_reflections_create(sb_measure *measure, sb_error *error);
 void sb_reflections_destroy(sb_measure *measure);
-/* Adds the row of all gauges at `time` to a set. *finished: its window ended, and its latest rows are new. */
+/* Adds the row of all gauges at `time` to a set. *rows: those of the window that ended, one per harmonic; or NULL. */
 sb_status sb_reflections_add(sb_measure *measure, size_t set, const sb_gauge_record *gauges, double time,
-                             bool *finished, sb_error *error);
+                             const sb_reflection_record **rows, sb_error *error);
 void sb_reflections_save(const sb_measure *measure, sb_archive_out *out);
 void sb_reflections_load(sb_measure *measure, sb_archive_in *in);
 

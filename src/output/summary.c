@@ -53,13 +53,11 @@ void sb_summary_put_work(sb_json *json, const sb_ledger *work)
     sb_json_close(json);
 }
 
-/* The last window of each set. */
 static void put_reflections(sb_json *json, const sb_summary *s)
 {
     sb_json_open(json, "reflections", '[');
     for (size_t i = 0; i < s->reflection_count; i++) {
         const sb_reflection_record *row = &s->reflections[i];
-        if (!(row->period > 0)) continue;
         sb_json_open(json, NULL, '{');
         sb_json_text(json, "name", s->scene->measure.reflections[row->set].name);
         sb_json_number(json, "from_s", row->from);

@@ -45,7 +45,7 @@ typedef struct sb_summary {
     int threads;
     const sb_body_record *bodies; /* one per body of the model; NULL: none */
     size_t reflection_count;
-    const sb_reflection_record *reflections;   /* of the last windows; a period of 0: none has ended */
+    const sb_reflection_record *reflections;   /* since the start of each set */
     sb_energy first, last;                     /* energies at the start and at the end */
     const sb_ledger *work;                     /* energy ledger; NULL: there was no simulation */
     uint64_t hash;                             /* of the final state */

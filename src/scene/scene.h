@@ -239,7 +239,7 @@ typedef struct sb_reflection_set {
     int harmonics; /* period, period/2, ..., period/harmonics are split */
     double depth;  /* m, still-water depth, for the wave numbers */
     double start;  /* s */
-    double window; /* s; 0: from the start to the run's end */
+    double window; /* s, at least one period */
 } sb_reflection_set;
 
 typedef struct sb_map {

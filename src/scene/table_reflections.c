@@ -55,8 +55,8 @@ static const sb_key keys[] = {
      .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Still-water depth at the gauges."},
     {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_reflection_set, start), .unit = "s", SB_KEY_NOT_NEGATIVE,
      .fallback = "0", .doc = "Time at which the first window begins: when the waves are regular."},
-    {.name = "window", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_reflection_set, window), .unit = "s", SB_KEY_NOT_NEGATIVE,
-     .fallback = "0", .doc = "Length of the windows, at least one period; 0: one window to the end of the run."},
+    {.name = "window", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_reflection_set, window), .unit = "s", SB_KEY_POSITIVE,
+     .derived = "5 periods", .doc = "Length of the windows, at least one period."},
 };
 /* clang-format on */
 
@@ -85,12 +85,13 @@ static sb_status check_gauges(sb_reader *reader, const sb_yaml *map, const sb_re
 
 static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
 {
-    const sb_reflection_set *set = item;
+    sb_reflection_set *set = item;
     const double interval = reader->scene->measure.interval;
     sb_status status = check_gauges(reader, map, set);
     if (status != SB_OK) return status;
-    if (set->window > 0 && set->window < set->period)
-        return sb_reader_fail(reader, map, "window", "%g s is shorter than the period, expected at least %g s, or 0",
+    if (!sb_yaml_child(map, "window")) set->window = 5 * set->period;
+    if (set->window < set->period)
+        return sb_reader_fail(reader, map, "window", "%g s is shorter than the period, expected at least %g s",
                               set->window, set->period);
     if (!(2 * interval * set->harmonics < set->period))
         return sb_reader_fail(

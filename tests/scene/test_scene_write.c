@@ -33,7 +33,7 @@ static const char everything[] =
     "  - {name: v, body: c.d, kind: goring, height: 0.1, depth: 0.3, start: command}\n"
     "measure:\n  interval: 0.001\n  gauges: [{name: g, x: 1, y: 0.5}, {name: h, x: 1.1, y: 0.6}, {name: i, x: 1.3, y: "
     "0.8}]\n"
-    "  reflections: [{name: s, gauges: [g, {name: h}, i], period: 0.7, depth: 0.3, window: 2}]\n"
+    "  reflections: [{name: s, gauges: [g, {name: h}, i], period: 0.7, depth: 0.3}]\n"
     "  probes: [{name: p, at: [1, 0.5, 0.1], radius: 0.1}]\n"
     "  planes: [{name: q, from: [1, 0], to: [1, 1], z_min: 0.1, z_max: 0.9, record: true, record_interval: 0.003}]\n"
     "  runups: [{name: r, from: [1, 0], to: [1, 1]}]\n"
