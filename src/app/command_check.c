@@ -8,6 +8,7 @@
 #include "app/warnings.h"
 #include "geometry/model/model.h"
 #include "output/json.h"
+#include "sea/sea.h"
 #include "sim/sim.h"
 
 #include <math.h>
@@ -29,6 +30,7 @@ static const double PARTICLE_FILE_BYTES = 52, PICTURE_BYTES = 7e5, CHECKPOINT_BY
 typedef struct estimate {
     double steps, time_step, seconds, memory, disk, ghosts;
     int settling, settling_most; /* steps */
+    const sb_sea_source *sea;    /* NULL: no water is given */
 } estimate;
 
 /* Seconds per step and fluid particle with the present number of threads. */
@@ -66,8 +68,10 @@ static estimate make_estimate(const sb_scene *scene, const sb_model *model)
     };
 }
 
-static void visit_warnings(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context)
+static void visit_warnings(const sb_scene *scene, const sb_model *model, const sb_sea_source *sea,
+                           sb_warning_visit *visit, void *context)
 {
+    if (sea && sb_sea_warning(sea)) visit(context, sb_sea_warning(sea));
     for (size_t w = 0; w < model->warning_count; w++) visit(context, model->warnings[w]);
     sb_scene_warnings(scene, visit, context);
     sb_facet_warnings(scene, model, visit, context);
@@ -96,6 +100,7 @@ static void report_text(const sb_scene *scene, const sb_model *model, const esti
     printf("  boundary particles %zu on %zu bodies\n", model->wall_count, model->body_count);
     if (e->ghosts > 0) printf("  ghost particles    about %.0f beyond periodic sides\n", e->ghosts);
     printf("  still depth        %g m (%.1f particles)\n", model->still_depth, model->still_depth / scene->resolution);
+    if (e->sea) printf("  given water        %s\n", sb_sea_about(e->sea));
     printf("  memory             about %.0f MB\n", e->memory / 1e6);
     printf("  steps              about %.0f of %.3g s\n", e->steps, e->time_step);
     if (e->settling > 0)
@@ -103,7 +108,7 @@ static void report_text(const sb_scene *scene, const sb_model *model, const esti
     printf("  run time           about %.0f s on %d threads%s\n", e->seconds, omp_get_max_threads(),
            e->settling > 0 ? ", including settling" : "");
     printf("  disk               about %.0f MB\n", e->disk / 1e6);
-    visit_warnings(scene, model, print_line, NULL);
+    visit_warnings(scene, model, e->sea, print_line, NULL);
 }
 
 static void report_json(const sb_scene *scene, const sb_model *model, const estimate *e)
@@ -119,6 +124,7 @@ static void report_json(const sb_scene *scene, const sb_model *model, const esti
     sb_json_count(&json, "boundary_particles", model->wall_count);
     sb_json_number(&json, "ghost_particles", e->ghosts);
     sb_json_number(&json, "still_depth_m", model->still_depth);
+    if (e->sea) sb_json_text(&json, "given_water", sb_sea_about(e->sea));
     sb_json_number(&json, "memory_bytes", e->memory);
     sb_json_number(&json, "steps", e->steps);
     sb_json_number(&json, "time_step_s", e->time_step);
@@ -136,7 +142,7 @@ static void report_json(const sb_scene *scene, const sb_model *model, const esti
     }
     sb_json_close(&json);
     sb_json_open(&json, "warnings", '[');
-    visit_warnings(scene, model, print_json, &json);
+    visit_warnings(scene, model, e->sea, print_json, &json);
     sb_json_close(&json);
     sb_json_close(&json);
     putchar('\n');
@@ -148,6 +154,7 @@ int sb_command_check(int count, char **arguments)
     sb_error error = {0};
     sb_scene scene = {0};
     sb_model model = {0};
+    sb_sea_source *sea = NULL;
     sb_status status = sb_options_parse(count, arguments, SB_OPT_JSON | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_THREADS,
                                         "scene", &options, &error);
     if (status == SB_OK && options.help) {
@@ -157,14 +164,17 @@ int sb_command_check(int count, char **arguments)
     if (status == SB_OK) status = sb_options_scene(&options, options.positional, &scene, &error);
     const bool grid = status == SB_OK && scene.offshore.present;
     if (grid) status = sb_grid_check(&scene, options.json, &error);
+    if (status == SB_OK && scene.given.source != SB_GIVEN_NONE) status = sb_sea_create(&scene, &sea, &error);
     if (status == SB_OK && !grid) status = sb_fit_check(&scene, &error);
     if (status == SB_OK && !grid) status = sb_model_build(&scene, &model, &error);
     if (status == SB_OK && !grid) {
         estimate e = make_estimate(&scene, &model);
+        e.sea = sea;
         (options.json ? report_json : report_text)(&scene, &model, &e);
     } else if (status != SB_OK) {
         fprintf(stderr, "shorebreak: %s\n", error.text);
     }
+    sb_sea_destroy(sea);
     sb_model_free(&model);
     sb_scene_free(&scene);
     sb_options_free(&options);

@@ -69,6 +69,22 @@ void sb_solitary_velocity(const sb_solitary *wave, double xi, double z, double *
         first_order(wave, &p, z, u, w);
 }
 
+void sb_solitary_motion(const sb_solitary *wave, double xi, double z, sb_wave_motion *motion)
+{
+    /* A wave of constant form has d/dt = -C d/dxi. Weights of the fourth-order difference at -2, -1, 1, 2 steps. */
+    static const double weights[] = {1 / 12.0, -8 / 12.0, 8 / 12.0, -1 / 12.0};
+    static const double places[] = {-2, -1, 1, 2};
+    const double step = 1e-3 * wave->depth, scale = -sb_solitary_celerity(wave) / step;
+    *motion = (sb_wave_motion){.elevation = sb_solitary_elevation(wave, xi)};
+    sb_solitary_velocity(wave, xi, z, &motion->u, &motion->w);
+    for (int i = 0; i < 4; i++) {
+        double u, w;
+        sb_solitary_velocity(wave, xi + places[i] * step, z, &u, &w);
+        motion->u_rate += scale * weights[i] * u;
+        motion->w_rate += scale * weights[i] * w;
+    }
+}
+
 double sb_standing_elevation(double amplitude, double wavelength, double x)
 {
     return amplitude * cos(2 * M_PI / wavelength * x);

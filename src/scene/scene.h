@@ -6,6 +6,7 @@
 #include "base/status.h"
 #include "base/vec.h"
 #include "physics/kernel.h"
+#include "physics/regular_wave.h"
 #include "physics/wave_theory.h"
 #include "physics/wavemaker.h"
 
@@ -53,6 +54,36 @@ typedef struct sb_initial_wave {
     int direction;             /* +1 towards +x, -1 towards -x */
     sb_solitary_theory theory; /* solitary wave only */
 } sb_initial_wave;
+
+/* Where the surface and velocity of the water at the sides of kind `sea` come from. NONE: still water. */
+typedef enum sb_given_source { SB_GIVEN_NONE, SB_GIVEN_THEORY, SB_GIVEN_TABLE, SB_GIVEN_RECORD } sb_given_source;
+typedef enum sb_given_wave { SB_GIVEN_SOLITARY, SB_GIVEN_REGULAR, SB_GIVEN_COMPONENTS } sb_given_wave;
+typedef enum sb_given_unit { SB_UNIT_M, SB_UNIT_CM, SB_UNIT_MM, SB_UNIT_FT } sb_given_unit;
+
+typedef struct sb_given_component {
+    double amplitude, period, direction, phase; /* m, s, degrees, degrees */
+} sb_given_component;
+
+/* The block `sea`. Values of other sources and waves are 0. */
+typedef struct sb_given_sea {
+    sb_given_source source;
+    double level, start; /* m, still-water level; s, time of the run at which the source has 0 s */
+    /* theory */
+    sb_given_wave wave;
+    double depth, height, period; /* m, m, s */
+    double direction;             /* degrees from +x towards +y, of travel */
+    double origin[2];             /* m, where phases and times are given */
+    double ramp;                  /* s in which the wave grows from nothing; 0: none */
+    sb_wave_order order;          /* regular waves */
+    sb_solitary_theory theory;    /* solitary wave */
+    size_t component_count;
+    sb_given_component *components;
+    /* table, record */
+    char *file; /* absolute path */
+    sb_given_unit unit;
+    double datum;            /* m, z of the table's zero */
+    char plane[SB_NAME_MAX]; /* of the record */
+} sb_given_sea;
 
 typedef enum sb_preset { SB_PRESET_DEFAULT, SB_PRESET_PAPER } sb_preset;
 typedef enum sb_solver { SB_SOLVER_JACOBI, SB_SOLVER_CHEBYSHEV, SB_SOLVER_CG } sb_solver;
@@ -184,12 +215,32 @@ typedef struct sb_probe {
 typedef struct sb_flow_plane {
     char name[SB_NAME_MAX];
     double ax, ay, bx, by, z_min, z_max;
+    bool record;            /* surface and velocities along it are written to record.csv */
+    double record_interval; /* s between rows, a multiple of the interval; 0: not recorded */
+    double record_spacing;  /* m between points along the plane; 0: not recorded, or 2D */
 } sb_flow_plane;
 /* A line from (ax, ay) to (bx, by). Run-up is the highest z of connected water within one spacing of it. */
 typedef struct sb_runup_line {
     char name[SB_NAME_MAX];
     double ax, ay, bx, by;
 } sb_runup_line;
+
+/* The name of a gauge. */
+typedef struct sb_gauge_name {
+    char name[SB_NAME_MAX];
+} sb_gauge_name;
+/* Gauges in a line, whose waves are split into those that travel from the first gauge to the last, and those that come
+   back. */
+typedef struct sb_reflection_set {
+    char name[SB_NAME_MAX];
+    size_t gauge_count; /* at least 3 */
+    sb_gauge_name *gauges;
+    double period; /* s */
+    int harmonics; /* period, period/2, ..., period/harmonics are split */
+    double depth;  /* m, still-water depth, for the wave numbers */
+    double start;  /* s */
+    double window; /* s, at least one period */
+} sb_reflection_set;
 
 typedef struct sb_map {
     bool present;
@@ -207,6 +258,8 @@ typedef struct sb_measure {
     sb_flow_plane *planes;
     size_t runup_count;
     sb_runup_line *runups;
+    size_t reflection_count;
+    sb_reflection_set *reflections;
     sb_map map;
 } sb_measure_settings;
 
@@ -295,6 +348,7 @@ typedef struct sb_scene {
     size_t box_count;
     sb_fluid_box *boxes;
     sb_initial_wave wave;
+    sb_given_sea given;
     sb_numerics numerics;
     size_t body_count;
     sb_body *bodies;
@@ -312,6 +366,11 @@ static inline bool sb_scene_repeats(const sb_scene *scene, int axis)
 {
     return scene->domain.side[2 * axis] == SB_SIDE_PERIODIC && !(scene->dimensions == 2 && axis == 1);
 }
+
+/* Index of the gauge of that name; gauge_count if there is none. */
+size_t sb_scene_gauge(const sb_scene *scene, const char *name);
+/* Distance of gauge i of a set from its first gauge, along the line to the last one, m. */
+double sb_reflection_place(const sb_scene *scene, const sb_reflection_set *set, size_t i);
 
 /* The sides' names in a scene: "x_min" and so on. */
 extern const char *const sb_side_names[SB_SIDES];

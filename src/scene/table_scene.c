@@ -104,12 +104,13 @@ static const sb_key fluid_keys[] = {
 
 static const sb_table fluid_table = {SB_KEY_ROWS(fluid_keys)};
 
-enum { PARTICLES = 1, OFFSHORE = 2 };
+enum { PARTICLES = 1, OFFSHORE = 2, GIVEN = 4 };
 
 static unsigned scene_variant(const void *item, const sb_yaml *map)
 {
     const bool offshore = map ? sb_yaml_child(map, "offshore") != NULL : ((const sb_scene *)item)->offshore.present;
-    return offshore ? OFFSHORE : PARTICLES;
+    const bool given = map ? sb_yaml_child(map, "sea") != NULL : ((const sb_scene *)item)->given.source != SB_GIVEN_NONE;
+    return (offshore ? OFFSHORE : PARTICLES) | (given ? GIVEN : 0);
 }
 
 #define WITH_PARTICLES .applies = PARTICLES, .only = "a scene without offshore"
@@ -139,6 +140,9 @@ static const sb_key scene_keys[] = {
      .doc = "Numerical parameters; a preset sets the ones that are not given."},
     {.name = "water", .type = SB_KEY_BLOCK, .offset = 0, .table = &sb_water_table,
      .flags = SB_KEY_REQUIRED, WITH_PARTICLES, .doc = "The water at the start."},
+    {.name = "sea", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, given), .table = &sb_given_table,
+     .applies = GIVEN, .only = "given water", .derived = "still water",
+     .doc = "Water that is given at the sides of kind `sea`; see [open sea](open-sea.md)."},
     {.name = "bodies", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_scene, bodies, body_count),
      .table = &sb_body_table, .doc = "Solids: terrain, buildings, paddles."},
     {.name = "wavemakers", .type = SB_KEY_LIST,
