@@ -4,7 +4,7 @@
 
 const char *const sb_side_names[SB_SIDES] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
-static const char *const side_kind_names[] = {"wall", "open", "periodic", NULL};
+static const char *const side_kind_names[] = {"wall", "open", "periodic", "sea", NULL};
 
 #define SIDE(index, side, fallback_, doc_)                                                                             \
     {                                                                                                                  \
@@ -28,6 +28,9 @@ static sb_status finish_sides(sb_reader *reader, const sb_yaml *map, void *item)
     const sb_side_kind *side = item;
     for (size_t i = 0; i < SB_SIDES; i++) {
         const size_t other = i ^ 1;
+        if (side[i] == SB_SIDE_SEA && (i == SB_Z_MIN || i == SB_Z_MAX))
+            return sb_reader_fail(reader, map, side_keys[i].name,
+                                  "sea, but water comes in through vertical sides only, expected wall or open");
         if (side[i] != SB_SIDE_PERIODIC || (reader->scene->dimensions == 2 && (i == SB_Y_MIN || i == SB_Y_MAX)))
             continue;
         if (i == SB_Z_MIN || i == SB_Z_MAX)
@@ -51,7 +54,7 @@ static const sb_key domain_keys[] = {
     {.name = "max", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_domain, max), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED, .doc = "Corner with the largest coordinates."},
     {.name = "sides", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_domain, side), .table = &side_table,
-     .doc = "Type of each side of the domain: `wall`, `open` or `periodic`; see below."},
+     .doc = "Type of each side of the domain: `wall`, `open`, `periodic` or `sea`; see below."},
 };
 /* clang-format on */
 

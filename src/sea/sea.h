@@ -1,0 +1,30 @@
+/* Given water: surface, velocity and acceleration at a place and time. (The name sb_sea is that of the scene's still
+   water.) */
+#ifndef SB_SEA_SEA_H
+#define SB_SEA_SEA_H
+
+#include "base/status.h"
+#include "scene/scene.h"
+
+/* Constant after its creation; safe for any number of threads. */
+typedef struct sb_sea_source sb_sea_source;
+
+typedef struct sb_sea_point {
+    double surface;         /* m, z of the water's surface; at or below the bed: dry */
+    double velocity[3];     /* m/s */
+    double acceleration[3]; /* m/s^2, d velocity / dt at the place */
+} sb_sea_point;
+
+/* Creates the source of a scene; the scene must outlive it. */
+sb_status sb_sea_create(const sb_scene *scene, sb_sea_source **out, sb_error *error);
+void sb_sea_destroy(sb_sea_source *sea);
+
+/* The water at (x, y), m, and time t, s. bed: z of the bed there, m. The velocity is that at the height z; above the
+   surface it is as at the surface. */
+void sb_sea_at(const sb_sea_source *sea, double t, double x, double y, double z, double bed, sb_sea_point *out);
+
+/* The highest surface, m, and the highest speed, m/s, at any time. */
+double sb_sea_greatest_surface(const sb_sea_source *sea);
+double sb_sea_greatest_speed(const sb_sea_source *sea);
+
+#endif
