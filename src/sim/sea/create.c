@@ -119,3 +119,21 @@ const sb_strip_side *sb_strip_side_of(const sb_strip *strip, sb_record at)
     }
     return found;
 }
+
+double sb_strip_along(const sb_sim *sim, const sb_strip_side *s, sb_record at)
+{
+    if (sim->constant.dimension == 2) return 0;
+    return (double)((int64_t)at[s->other] - (int64_t)sb_space_low(&sim->space)) * sim->space.quantum;
+}
+
+size_t sb_strip_column(const sb_sim *sim, const sb_strip_side *s, double along)
+{
+    const double column = floor(along / sim->model->sea[s->side].pitch);
+    return (size_t)fmin(fmax(column, 0), (double)(s->columns - 1));
+}
+
+size_t sb_strip_row(double z, double bed, double surface, int rows)
+{
+    const double row = floor((z - bed) / fmax(surface - bed, 1e-9) * rows);
+    return (size_t)fmin(fmax(row, 0), rows - 1);
+}

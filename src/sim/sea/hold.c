@@ -10,17 +10,11 @@
 /* Of the water inside of a strip, spacings whose density corrections the rows get at rest. */
 static const double SAMPLED = 2;
 
-static double along_of(const sb_sim *sim, const sb_strip_side *s, sb_record at)
-{
-    if (sim->constant.dimension == 2) return 0;
-    return (double)((int64_t)at[s->other] - (int64_t)sb_space_low(&sim->space)) * sim->space.quantum;
-}
-
 static sb_given given_of(const sb_sim *sim, const sb_strip_side *s, sb_record at, double t)
 {
     const double quantum = sim->space.quantum;
     sb_given given;
-    sb_strip_given(sim, s, t, (double)sb_strip_inwards(s, at) * quantum, along_of(sim, s, at),
+    sb_strip_given(sim, s, t, (double)sb_strip_inwards(s, at) * quantum, sb_strip_along(sim, s, at),
                    sim->space.origin.z + at[2] * quantum, &given);
     return given;
 }
@@ -28,14 +22,11 @@ static sb_given given_of(const sb_sim *sim, const sb_strip_side *s, sb_record at
 /* Row of a particle among those of its column at rest, as an index into the corrections; SIZE_MAX: it has none. */
 static size_t still_row(const sb_sim *sim, const sb_strip_side *s, sb_record at)
 {
-    const double pitch = sim->model->sea[s->side].pitch, along = along_of(sim, s, at);
-    const size_t column = (size_t)fmin(fmax(floor(along / pitch), 0), (double)(s->columns - 1));
+    const size_t column = sb_strip_column(sim, s, sb_strip_along(sim, s, at));
     const sb_given given = given_of(sim, s, at, 0);
     const double z = sim->space.origin.z + at[2] * sim->space.quantum;
     const int rows = s->still_rows[column];
-    if (rows == 0) return SIZE_MAX;
-    const double row = floor((z - given.bed) / fmax(given.surface - given.bed, 1e-9) * rows);
-    return column * s->rows + (size_t)fmin(fmax(row, 0), rows - 1);
+    return rows == 0 ? SIZE_MAX : column * s->rows + sb_strip_row(z, given.bed, given.surface, rows);
 }
 
 /* Sums in integer parts of the rest density, so that they do not depend on the order. */

@@ -29,29 +29,9 @@ static double particle_volume(const sb_sim *sim)
     return sim->constant.dimension == 2 ? dr * dr : dr * dr * dr;
 }
 
-/* Distances of a record from the side's corner of the domain, m. */
-static double along_of(const sb_sim *sim, const sb_strip_side *s, sb_record at)
-{
-    if (sim->constant.dimension == 2) return 0;
-    return (double)((int64_t)at[s->other] - (int64_t)sb_space_low(&sim->space)) * sim->space.quantum;
-}
-
 static double height_of(const sb_sim *sim, sb_record at)
 {
     return sim->space.origin.z + at[2] * sim->space.quantum;
-}
-
-static size_t column_of(const sb_sim *sim, const sb_strip_side *s, double along)
-{
-    const double column = floor(along / sim->model->sea[s->side].pitch);
-    return (size_t)fmin(fmax(column, 0), (double)(s->columns - 1));
-}
-
-/* The row of a height in a column with its water between bed and surface; rows: at least 1. */
-static size_t row_of(double z, double bed, double surface, int rows)
-{
-    const double row = floor((z - bed) / fmax(surface - bed, 1e-9) * rows);
-    return (size_t)fmin(fmax(row, 0), rows - 1);
 }
 
 /* Counts the particles that are beyond the side: the sort will remove them. */
@@ -63,12 +43,12 @@ static void count_leaving(sb_sim *sim, sb_strip_side *s)
     for (size_t i = 0; i < n; i++) {
         const sb_record at = sim->state.position[i];
         if (sb_strip_inwards(s, at) >= 0) continue;
-        const double along = along_of(sim, s, at), z = height_of(sim, at);
-        const size_t column = column_of(sim, s, along);
+        const double along = sb_strip_along(sim, s, at), z = height_of(sim, at);
+        const size_t column = sb_strip_column(sim, s, along);
         sb_given given;
         if (s->row_count[column] == 0) continue;
         sb_strip_given(sim, s, sim->state.time, 0, along, z, &given);
-        const size_t row = row_of(z, given.bed, given.surface, s->row_count[column]);
+        const size_t row = sb_strip_row(z, given.bed, given.surface, s->row_count[column]);
         __atomic_fetch_add(&s->left[column * s->rows + row], 1u, __ATOMIC_RELAXED);
     }
 }
@@ -142,7 +122,7 @@ static void count_content(sb_sim *sim, sb_strip_side *s)
         const sb_record at = sim->state.position[i];
         const int64_t inwards = sb_strip_inwards(s, at);
         if (inwards < 0 || inwards >= s->width) continue;
-        __atomic_fetch_add(&s->content[column_of(sim, s, along_of(sim, s, at))], 1, __ATOMIC_RELAXED);
+        __atomic_fetch_add(&s->content[sb_strip_column(sim, s, sb_strip_along(sim, s, at))], 1, __ATOMIC_RELAXED);
     }
 }
 
@@ -204,7 +184,7 @@ static float correction_of(const sb_strip_side *s, size_t column, size_t row)
 {
     const int still = s->still_rows[column];
     if (still == 0) return NAN;
-    return s->correction[column * s->rows + row_of((double)row + 0.5, 0, s->row_count[column], still)];
+    return s->correction[column * s->rows + sb_strip_row((double)row + 0.5, 0, s->row_count[column], still)];
 }
 
 /* Refuses a source whose water falls dry where there are STILL_DEEP layers at rest. */

@@ -51,9 +51,7 @@ static void add_particle(sb_sim *sim, const sb_strip_side *s, size_t i)
     const double inwards = (double)sb_strip_inwards(s, at) * sim->space.quantum;
     const double reach = reach_of(sim), across = weight_at(inwards - s->strip - reach, reach);
     if (!(across > 0)) return;
-    const double along = sim->constant.dimension == 3
-                             ? (double)((int64_t)at[s->other] - (int64_t)sb_space_low(&sim->space)) * sim->space.quantum
-                             : 0;
+    const double along = sb_strip_along(sim, s, at);
     const double scale = PARTS / (double)sim->constant.wave_speed;
     const size_t first =
         (size_t)fmin(fmax(floor((along - s->station_from) / s->station_pitch - 0.5), 0), (double)(s->stations - 1));

@@ -77,6 +77,12 @@ static inline int64_t sb_strip_inwards(const sb_strip_side *s, sb_record at)
     return s->side % 2 ? s->edge - (int64_t)at[s->axis] : (int64_t)at[s->axis] - s->edge;
 }
 
+/* Distance along a side, m; 0 in 2D. Its column. */
+double sb_strip_along(const sb_sim *sim, const sb_strip_side *s, sb_record at);
+size_t sb_strip_column(const sb_sim *sim, const sb_strip_side *s, double along);
+/* The row of a height in water between bed and surface that has this number of rows, at least 1. */
+size_t sb_strip_row(double z, double bed, double surface, int rows);
+
 /* given.c: the water at a place `inwards` (m, negative: beyond the side), `along` and z at time t. */
 void sb_strip_given(const sb_sim *sim, const sb_strip_side *s, double t, double inwards, double along, double z,
                     sb_given *out);

@@ -19,7 +19,8 @@ static const sb_initial_wave still = {.kind = SB_INITIAL_NONE};
 /* Its crest passes x = 0 at t = 10 / C. */
 static sb_initial_wave solitary(double height)
 {
-    return (sb_initial_wave){.kind = SB_INITIAL_SOLITARY, .height = height, .depth = 1, .position = -10, .direction = 1};
+    return (sb_initial_wave){
+        .kind = SB_INITIAL_SOLITARY, .height = height, .depth = 1, .position = -10, .direction = 1};
 }
 
 /* Largest change of the mean depth around x, over `times` sqrt(d/g). */
@@ -34,8 +35,8 @@ static double follow(sb_sim *sim, double x, double reach, double times)
     return most;
 }
 
-/* Still water between two seas: no particle comes or goes, the level stays within 0.2 % of the depth, and no particle is
-   faster than 0.025 sqrt(g D): with walls instead of the seas the same water has 0.019. */
+/* Still water between two seas: no particle comes or goes, the level stays within 0.2 % of the depth, and no particle
+   is faster than 0.025 sqrt(g D): with walls instead of the seas the same water has 0.019. */
 static void still_water_rests(void **state)
 {
     (void)state;
@@ -142,7 +143,8 @@ static void a_solitary_wave_passes(void **state)
     }
     const sb_crossing *crossing = sb_sim_crossing(sim);
     const double mass = 0.01 * (double)crossing->in;
-    printf("solitary: height %.4f, after %.4f, volume in %.3f out %.3f\n", top, after, mass, 0.01 * (double)crossing->out);
+    printf("solitary: height %.4f, after %.4f, volume in %.3f out %.3f\n", top, after, mass,
+           0.01 * (double)crossing->out);
     assert_near(top, 0.3, 0.05 * 0.3);
     assert_true(after < 0.03 * 0.3);
     assert_near(mass, 1.362, 0.1); /* one column of particles */
@@ -258,7 +260,8 @@ static void a_source_that_dries_the_strip_ends_the_run(void **state)
 {
     (void)state;
     const shore_form form = {2, 0.1, 1, {6, 0, 2.2}, "{x_min: sea}", NULL, NULL};
-    const sb_initial_wave wave = {.kind = SB_INITIAL_STANDING, .height = 0.98, .depth = 1, .wavelength = 8, .direction = 1};
+    const sb_initial_wave wave = {
+        .kind = SB_INITIAL_STANDING, .height = 0.98, .depth = 1, .wavelength = 8, .direction = 1};
     shore s;
     shore_make(&s, &form, &wave);
     sb_sim *sim = shore_sim(&s);
