@@ -92,6 +92,21 @@ static void print_json(void *context, const char *text)
     sb_json_text(context, NULL, text);
 }
 
+/* What the strip of a side of kind sea holds. */
+static void report_sea(const sb_model *model, int side)
+{
+    const sb_model_sea *sea = &model->sea[side];
+    double low = (double)INFINITY, high = -(double)INFINITY;
+    if (sea->along == 0) return;
+    for (size_t c = 0; c < sea->along * sea->across; c++) {
+        low = fmin(low, sea->bed[c]);
+        high = fmax(high, sea->bed[c]);
+    }
+    printf("  sea at %s       %zu column%s, a strip %g m wide is held to the given water, %g m are measured;\n"
+           "                     ground from %g to %g m\n",
+           sb_side_names[side], sea->along, sea->along == 1 ? "" : "s", sea->strip, sea->width - sea->strip, low, high);
+}
+
 static void report_text(const sb_scene *scene, const sb_model *model, const estimate *e)
 {
     printf("%s\n", scene->title);
@@ -101,6 +116,7 @@ static void report_text(const sb_scene *scene, const sb_model *model, const esti
     if (e->ghosts > 0) printf("  ghost particles    about %.0f beyond periodic sides\n", e->ghosts);
     printf("  still depth        %g m (%.1f particles)\n", model->still_depth, model->still_depth / scene->resolution);
     if (e->sea) printf("  given water        %s\n", sb_sea_about(e->sea));
+    for (int side = 0; side < 4; side++) report_sea(model, side);
     printf("  memory             about %.0f MB\n", e->memory / 1e6);
     printf("  steps              about %.0f of %.3g s\n", e->steps, e->time_step);
     if (e->settling > 0)

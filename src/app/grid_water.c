@@ -24,6 +24,7 @@ static sb_offshore_side side_of(const sb_scene *scene, int side)
         return SB_OFFSHORE_OPEN;
     case SB_SIDE_PERIODIC:
         return SB_OFFSHORE_PERIODIC;
+    case SB_SIDE_SEA: /* refused with the scene */
     case SB_SIDE_WALL:
         break;
     }

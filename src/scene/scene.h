@@ -16,7 +16,7 @@
 
 enum { SB_NAME_MAX = 64 };
 
-typedef enum sb_side_kind { SB_SIDE_WALL, SB_SIDE_OPEN, SB_SIDE_PERIODIC } sb_side_kind;
+typedef enum sb_side_kind { SB_SIDE_WALL, SB_SIDE_OPEN, SB_SIDE_PERIODIC, SB_SIDE_SEA } sb_side_kind;
 enum { SB_X_MIN, SB_X_MAX, SB_Y_MIN, SB_Y_MAX, SB_Z_MIN, SB_Z_MAX, SB_SIDES };
 
 typedef struct sb_fluid_properties {
@@ -27,7 +27,7 @@ typedef struct sb_fluid_properties {
 
 typedef struct sb_domain {
     sb_vec3 min, max;            /* m */
-    sb_side_kind side[SB_SIDES]; /* periodic: pairs along x or y */
+    sb_side_kind side[SB_SIDES]; /* periodic: pairs along x or y; sea: not along z */
 } sb_domain;
 
 /* The sea: all space below `level` that is connected with `seed`. */
@@ -360,6 +360,12 @@ typedef struct sb_scene {
     sb_control_settings control;
     sb_output_settings output;
 } sb_scene;
+
+/* Whether water of a given sea comes in and goes out through a side. */
+static inline bool sb_scene_sea_side(const sb_scene *scene, int side)
+{
+    return scene->domain.side[side] == SB_SIDE_SEA && !(scene->dimensions == 2 && side / 2 == 1);
+}
 
 /* Whether the domain is periodic along an axis (0, 1, 2). In 2D it is never periodic along y. */
 static inline bool sb_scene_repeats(const sb_scene *scene, int axis)

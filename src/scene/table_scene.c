@@ -4,7 +4,7 @@
 
 const char *const sb_side_names[SB_SIDES] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
-static const char *const side_kind_names[] = {"wall", "open", "periodic", NULL};
+static const char *const side_kind_names[] = {"wall", "open", "periodic", "sea", NULL};
 
 #define SIDE(index, side, fallback_, doc_)                                                                             \
     {                                                                                                                  \
@@ -28,6 +28,9 @@ static sb_status finish_sides(sb_reader *reader, const sb_yaml *map, void *item)
     const sb_side_kind *side = item;
     for (size_t i = 0; i < SB_SIDES; i++) {
         const size_t other = i ^ 1;
+        if (side[i] == SB_SIDE_SEA && (i == SB_Z_MIN || i == SB_Z_MAX))
+            return sb_reader_fail(reader, map, side_keys[i].name,
+                                  "sea, but water comes in through vertical sides only, expected wall or open");
         if (side[i] != SB_SIDE_PERIODIC || (reader->scene->dimensions == 2 && (i == SB_Y_MIN || i == SB_Y_MAX)))
             continue;
         if (i == SB_Z_MIN || i == SB_Z_MAX)
@@ -51,7 +54,7 @@ static const sb_key domain_keys[] = {
     {.name = "max", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_domain, max), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED, .doc = "Corner with the largest coordinates."},
     {.name = "sides", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_domain, side), .table = &side_table,
-     .doc = "Type of each side of the domain: `wall`, `open` or `periodic`; see below."},
+     .doc = "Type of each side of the domain: `wall`, `open`, `periodic` or `sea`; see below."},
 };
 /* clang-format on */
 
@@ -109,7 +112,8 @@ enum { PARTICLES = 1, OFFSHORE = 2, GIVEN = 4 };
 static unsigned scene_variant(const void *item, const sb_yaml *map)
 {
     const bool offshore = map ? sb_yaml_child(map, "offshore") != NULL : ((const sb_scene *)item)->offshore.present;
-    const bool given = map ? sb_yaml_child(map, "sea") != NULL : ((const sb_scene *)item)->given.source != SB_GIVEN_NONE;
+    const bool given =
+        map ? sb_yaml_child(map, "sea") != NULL : ((const sb_scene *)item)->given.source != SB_GIVEN_NONE;
     return (offshore ? OFFSHORE : PARTICLES) | (given ? GIVEN : 0);
 }
 
@@ -161,11 +165,27 @@ static const sb_key scene_keys[] = {
 };
 /* clang-format on */
 
+/* Given water needs particles, and a side. */
+static sb_status check_sea(sb_reader *reader, const sb_yaml *map, const sb_scene *scene)
+{
+    bool any = false;
+    for (int side = 0; side < SB_SIDES; side++) any = any || sb_scene_sea_side(scene, side);
+    if (any && scene->offshore.present)
+        return sb_reader_fail(reader, map, "domain",
+                              "sides: a side of kind sea needs particles, and a scene with offshore has none, expected "
+                              "wall, open or periodic");
+    if (any || scene->given.source == SB_GIVEN_NONE) return SB_OK;
+    return sb_reader_fail(reader, map, "sea",
+                          "the given water has no side to come in through, expected domain.sides with a side of kind "
+                          "sea, such as {x_min: sea}");
+}
+
 static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_scene *scene = item;
     if (scene->control.enabled) scene->stream.enabled = true; /* it has the run's id and sends the replies */
-    if (scene->offshore.present) return SB_OK;
+    sb_status status = check_sea(reader, map, scene);
+    if (status != SB_OK || scene->offshore.present) return status;
     sb_vec3 size = sb_sub(scene->domain.max, scene->domain.min);
     double least = size.x < size.z ? size.x : size.z;
     if (scene->dimensions == 3 && size.y < least) least = size.y;

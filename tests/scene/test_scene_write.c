@@ -9,7 +9,7 @@ static const char everything[] =
     "title: \"Grüße \\u2028 \\\"quoted\\\" \\\\ \\t end\\u2029 \\U0001F30A\"\n"
     "resolution: 0.1234567890123456789\nduration: 1e-3\n"
     "fluid: {density: 1025, gravity: 9.80665, viscosity: 0}\n"
-    "domain: {min: [-1e5, -0.1, 0], max: [2, 1, 1], sides: {x_min: open, y_max: open}}\n"
+    "domain: {min: [-1e5, -0.1, 0], max: [2, 1, 1], sides: {x_min: open, y_min: sea, y_max: open}}\n"
     "numerics: {preset: paper, kernel: KERNEL, support: 2.7, seed: 18446744073709551615,\n"
     "  solver: chebyshev, time_step_max: 0.1, settle_steps: 7}\n"
     "water:\n  level: 0.3\n  seed: [1, 0.5, 0.2]\n  boxes:\n"
@@ -230,13 +230,13 @@ static void test_given_water(void **state)
             snprintf(block, sizeof block, "%.*s%s%s", (int)(at - blocks[i]), blocks[i], file, at + 4);
         else
             snprintf(block, sizeof block, "%s", blocks[i]);
-        snprintf(text, sizeof text, SCENE_HEAD "sea: {%s}\n", block);
+        snprintf(text, sizeof text, SCENE_SEA "sea: {%s}\n", block);
         scene_file(text, path);
         round_trip(path);
         remove(path);
     }
     sb_scene scene;
-    scene_must_read(SCENE_HEAD "sea: {source: theory, wave: solitary, height: 0.1, depth: 0.5, direction: 135}\n", NULL,
+    scene_must_read(SCENE_SEA "sea: {source: theory, wave: solitary, height: 0.1, depth: 0.5, direction: 135}\n", NULL,
                     NULL, 0, &scene);
     assert_near(scene.given.level, 0.5, 0);
     assert_true(scene.given.origin[0] == 2 && scene.given.origin[1] == 0 && scene.given.ramp == 0);

@@ -12,10 +12,10 @@
 
 /* 2D: 10 m long, 2 m high, still water at 1 m, 20 s. 3D: 6 m wide as well. */
 #define SEA_FLAT                                                                                                       \
-    "dimensions: 2\nresolution: 0.1\nduration: 20\ndomain: {min: [0, 0], max: [10, 2]}\n"                              \
+    "dimensions: 2\nresolution: 0.1\nduration: 20\ndomain: {min: [0, 0], max: [10, 2], sides: {x_min: sea}}\n"         \
     "water: {level: 1, seed: [1, 0.2]}\n"
 #define SEA_SPACE                                                                                                      \
-    "resolution: 0.1\nduration: 20\ndomain: {min: [0, 0, 0], max: [10, 6, 2]}\n"                                       \
+    "resolution: 0.1\nduration: 20\ndomain: {min: [0, 0, 0], max: [10, 6, 2], sides: {x_min: sea}}\n"                  \
     "water: {level: 1, seed: [1, 1, 0.2]}\n"
 
 typedef struct sea_case {

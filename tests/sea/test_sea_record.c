@@ -84,7 +84,7 @@ static void the_domain_tells_what_comes_in(void **state)
     assert_near(sea_at(&c, 9, 0, 0, 0).surface, 1.21, 1e-9);
     sea_free(&c);
     sea_make(&c,
-             "dimensions: 2\nresolution: 0.1\nduration: 20\ndomain: {min: [-10, 0], max: [0, 2]}\n"
+             "dimensions: 2\nresolution: 0.1\nduration: 20\ndomain: {min: [-10, 0], max: [0, 2], sides: {x_max: sea}}\n"
              "water: {level: 1, seed: [-1, 0.2]}\n",
              "source: record, file: table.csv, plane: p", text);
     const sb_sea_point at = sea_at(&c, 9, 0, 0, 0.5);
@@ -115,7 +115,7 @@ static void points_along_a_plane_and_dry_cells(void **state)
     sea_refused(SEA_SPACE, "source: record, file: table.csv, plane: q", "t,eta,u\n", "header of a record");
     sea_refused(SEA_SPACE, "source: record, file: table.csv, plane: q", SB_RECORD_HEADER "\n1,q,0\n",
                 "csv:2: 3 columns");
-    sea_refused("resolution: 0.1\nduration: 20\ndomain: {min: [-5, 0, 0], max: [5, 6, 2]}\n"
+    sea_refused("resolution: 0.1\nduration: 20\ndomain: {min: [-5, 0, 0], max: [5, 6, 2], sides: {x_min: sea}}\n"
                 "water: {level: 1, seed: [1, 1, 0.2]}\n",
                 "source: record, file: table.csv, plane: p", text, "through the middle of the domain");
 }
