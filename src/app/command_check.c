@@ -68,10 +68,8 @@ static estimate make_estimate(const sb_scene *scene, const sb_model *model)
     };
 }
 
-static void visit_warnings(const sb_scene *scene, const sb_model *model, const sb_sea_source *sea,
-                           sb_warning_visit *visit, void *context)
+static void visit_warnings(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context)
 {
-    if (sea && sb_sea_warning(sea)) visit(context, sb_sea_warning(sea));
     for (size_t w = 0; w < model->warning_count; w++) visit(context, model->warnings[w]);
     sb_scene_warnings(scene, visit, context);
     sb_facet_warnings(scene, model, visit, context);
@@ -124,7 +122,7 @@ static void report_text(const sb_scene *scene, const sb_model *model, const esti
     printf("  run time           about %.0f s on %d threads%s\n", e->seconds, omp_get_max_threads(),
            e->settling > 0 ? ", including settling" : "");
     printf("  disk               about %.0f MB\n", e->disk / 1e6);
-    visit_warnings(scene, model, e->sea, print_line, NULL);
+    visit_warnings(scene, model, print_line, NULL);
 }
 
 static void report_json(const sb_scene *scene, const sb_model *model, const estimate *e)
@@ -158,7 +156,7 @@ static void report_json(const sb_scene *scene, const sb_model *model, const esti
     }
     sb_json_close(&json);
     sb_json_open(&json, "warnings", '[');
-    visit_warnings(scene, model, e->sea, print_json, &json);
+    visit_warnings(scene, model, print_json, &json);
     sb_json_close(&json);
     sb_json_close(&json);
     putchar('\n');

@@ -58,6 +58,7 @@ typedef struct sb_initial_wave {
 /* Where the surface and velocity of the water at the sides of kind `sea` come from. NONE: still water. */
 typedef enum sb_given_source { SB_GIVEN_NONE, SB_GIVEN_THEORY, SB_GIVEN_TABLE, SB_GIVEN_RECORD } sb_given_source;
 typedef enum sb_given_wave { SB_GIVEN_SOLITARY, SB_GIVEN_REGULAR, SB_GIVEN_COMPONENTS } sb_given_wave;
+typedef enum sb_given_side { SB_GIVEN_HERE, SB_GIVEN_STILL } sb_given_side;
 typedef enum sb_given_unit { SB_UNIT_M, SB_UNIT_CM, SB_UNIT_MM, SB_UNIT_FT } sb_given_unit;
 
 typedef struct sb_given_component {
@@ -67,7 +68,8 @@ typedef struct sb_given_component {
 /* The block `sea`. Values of other sources and waves are 0. */
 typedef struct sb_given_sea {
     sb_given_source source;
-    double level, start; /* m, still-water level; s, time of the run at which the source has 0 s */
+    double level, start;   /* m, still-water level; s, time of the run at which the source has 0 s */
+    sb_given_side side[4]; /* from x_min to y_max; still: its water is still, and only waves from within pass */
     /* theory */
     sb_given_wave wave;
     double depth, height, period; /* m, m, s */
@@ -365,6 +367,13 @@ typedef struct sb_scene {
 static inline bool sb_scene_sea_side(const sb_scene *scene, int side)
 {
     return scene->domain.side[side] == SB_SIDE_SEA && !(scene->dimensions == 2 && side / 2 == 1);
+}
+
+/* Whether the source of a given sea is that of a side; otherwise the side has still water, if it is of kind sea. */
+static inline bool sb_scene_given_side(const sb_scene *scene, int side)
+{
+    return sb_scene_sea_side(scene, side) && scene->given.source != SB_GIVEN_NONE &&
+           scene->given.side[side] == SB_GIVEN_HERE;
 }
 
 /* Whether the domain is periodic along an axis (0, 1, 2). In 2D it is never periodic along y. */

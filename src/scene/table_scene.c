@@ -168,16 +168,22 @@ static const sb_key scene_keys[] = {
 /* Given water needs particles, and a side. */
 static sb_status check_sea(sb_reader *reader, const sb_yaml *map, const sb_scene *scene)
 {
-    bool any = false;
-    for (int side = 0; side < SB_SIDES; side++) any = any || sb_scene_sea_side(scene, side);
+    bool any = false, given = false;
+    for (int side = 0; side < 4; side++) {
+        any = any || sb_scene_sea_side(scene, side);
+        given = given || sb_scene_given_side(scene, side);
+        if (scene->given.side[side] == SB_GIVEN_STILL && !sb_scene_sea_side(scene, side))
+            return sb_reader_fail(reader, map, "sea", "sides.%s: still, but domain.sides.%s is not sea, expected sea",
+                                  sb_side_names[side], sb_side_names[side]);
+    }
     if (any && scene->offshore.present)
         return sb_reader_fail(reader, map, "domain",
                               "sides: a side of kind sea needs particles, and a scene with offshore has none, expected "
                               "wall, open or periodic");
-    if (any || scene->given.source == SB_GIVEN_NONE) return SB_OK;
+    if (given || scene->given.source == SB_GIVEN_NONE) return SB_OK;
     return sb_reader_fail(reader, map, "sea",
                           "the given water has no side to come in through, expected domain.sides with a side of kind "
-                          "sea, such as {x_min: sea}");
+                          "sea, such as {x_min: sea}, that is not still");
 }
 
 static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)

@@ -6,6 +6,7 @@ static const char *const source_names[] = {"none", "theory", "table", "record", 
 static const char *const given_wave_names[] = {"solitary", "regular", "components", NULL};
 static const char *const order_names[] = {"auto", "linear", "second-order", "cnoidal", NULL};
 static const char *const solitary_names[] = {"third-order", "boussinesq", NULL};
+static const char *const given_side_names[] = {"given", "still", NULL};
 static const char *const unit_names[] = {"m", "cm", "mm", "ft", NULL};
 
 enum { SOLITARY = 1, REGULAR = 2, COMPONENTS = 4, TABLE = 8, RECORD = 16, THEORY = 32, GIVEN = 64 };
@@ -42,6 +43,16 @@ static const sb_key component_keys[] = {
 
 static const sb_table component_table = {SB_KEY_ROWS(component_keys), .size = sizeof(sb_given_component)};
 
+#define GIVEN_SIDE(index, side)                                                                                        \
+    {                                                                                                                  \
+        .name = side, .type = SB_KEY_CHOICE, .offset = (index) * sizeof(sb_given_side), .words = given_side_names,     \
+        .fallback = "given", .doc = "The water at " side ", if it is of kind `sea`."                                   \
+    }
+
+static const sb_key given_side_keys[] = {GIVEN_SIDE(SB_X_MIN, "x_min"), GIVEN_SIDE(SB_X_MAX, "x_max"),
+                                         GIVEN_SIDE(SB_Y_MIN, "y_min"), GIVEN_SIDE(SB_Y_MAX, "y_max")};
+static const sb_table given_side_table = {SB_KEY_ROWS(given_side_keys)};
+
 #define WAVE_NUMBER(key, unit_, bits, only_, doc_)                                                                     \
     {                                                                                                                  \
         .name = #key, .type = SB_KEY_NUMBER, SB_KEY_AT(sb_given_sea, key), .unit = unit_, .min = 0, .max = HUGE_VAL,   \
@@ -58,6 +69,10 @@ static const sb_key keys[] = {
     {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_given_sea, start), .unit = "s", SB_KEY_ANY,
      .applies = GIVEN, .only = "a source", .fallback = "0",
      .doc = "Time of the run at which the source has 0 s. -600 begins a run at 600 s of a table."},
+    {.name = "sides", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_given_sea, side), .table = &given_side_table,
+     .applies = GIVEN, .only = "a source",
+     .doc = "Sides of kind `sea` at which the water is that of the source (`given`), and those at which it is `still`, "
+            "and only lets waves out."},
     {.name = "wave", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_given_sea, wave), .words = given_wave_names,
      .flags = SB_KEY_REQUIRED, .applies = THEORY, .only = "source theory",
      .doc = "Kind of wave: `solitary`, `regular`, or a sum of linear `components`."},

@@ -93,16 +93,26 @@ static double along_ground(const double velocity[3], const sb_strip_side *s, con
            velocity[s->other] * fmin(fmax(slope[1], -STEEP), STEEP);
 }
 
+void sb_strip_source(const sb_sim *sim, const sb_strip_side *s, double t, sb_vec3 at, double bed, sb_sea_point *out)
+{
+    if (sim->scene->given.source == SB_GIVEN_NONE || sb_scene_given_side(sim->scene, s->side))
+        sb_sea_at(sim->strip->sea, t, at.x, at.y, at.z, bed, out);
+    else
+        *out = (sb_sea_point){.surface = sim->scene->given.level};
+}
+
 void sb_strip_given(const sb_sim *sim, const sb_strip_side *s, double t, double inwards, double along, double z,
                     sb_given *out)
 {
     const double g = (double)sim->constant.gravity, least = SHALLOW * sim->scene->resolution;
     double slope[2];
     const double bed = ground_at(sim, s, inwards, along, slope);
-    const sb_vec3 at = sb_model_sea_place(sim->model, s->side, inwards, along);
+    sb_vec3 at = sb_model_sea_place(sim->model, s->side, inwards, along);
     sb_sea_point in, top;
-    sb_sea_at(sim->strip->sea, t, at.x, at.y, z, bed, &in);
-    sb_sea_at(sim->strip->sea, t, at.x, at.y, in.surface, bed, &top);
+    at.z = z;
+    sb_strip_source(sim, s, t, at, bed, &in);
+    at.z = in.surface;
+    sb_strip_source(sim, s, t, at, bed, &top);
     const double depth_in = fmax(in.surface - bed, least);
     const sb_outgoing w = outgoing_at(sim, s, along);
     const passing p = passing_at(s, &w, inwards, depth_in, g);

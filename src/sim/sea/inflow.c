@@ -191,10 +191,11 @@ static float correction_of(const sb_strip_side *s, size_t column, size_t row)
 static sb_status check_depth(const sb_sim *sim, const sb_strip_side *s, size_t column, sb_error *error)
 {
     const double along = ((double)column + 0.5) * sim->model->sea[s->side].pitch, bed = sb_strip_bed(sim, s, 0, along);
-    const sb_vec3 at = sb_model_sea_place(sim->model, s->side, 0, along);
+    sb_vec3 at = sb_model_sea_place(sim->model, s->side, 0, along);
     sb_sea_point point;
+    at.z = bed;
     if (s->still_rows[column] < STILL_DEEP) return SB_OK;
-    sb_sea_at(sim->strip->sea, sim->state.time, at.x, at.y, bed, bed, &point);
+    sb_strip_source(sim, s, sim->state.time, at, bed, &point);
     if (point.surface - bed >= sim->scene->resolution) return SB_OK;
     return sb_fail(
         error, SB_FAILED,

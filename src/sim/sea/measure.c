@@ -131,13 +131,15 @@ static means given_means(const sb_sim *sim, const sb_strip_side *s, size_t stati
     double all = 0;
     for (int k = 0; k < ACROSS; k++) {
         const double from = (2.0 * k + 1 - ACROSS) / ACROSS * reach, w = weight_at(from, reach);
-        const sb_vec3 at = sb_model_sea_place(sim->model, s->side, s->strip + reach + from, along);
+        sb_vec3 at = sb_model_sea_place(sim->model, s->side, s->strip + reach + from, along);
         const double bed = sb_strip_bed(sim, s, s->strip + reach + from, along);
         sb_sea_point p;
-        sb_sea_at(sim->strip->sea, sim->state.time, at.x, at.y, bed, bed, &p);
+        at.z = bed;
+        sb_strip_source(sim, s, sim->state.time, at, bed, &p);
         const double surface = p.surface, depth = fmax(surface - bed, 0);
         for (int n = 0; n < OVER_DEPTH; n++) {
-            sb_sea_at(sim->strip->sea, sim->state.time, at.x, at.y, bed + gauss_at[n] * depth, bed, &p);
+            at.z = bed + gauss_at[n] * depth;
+            sb_strip_source(sim, s, sim->state.time, at, bed, &p);
             m.inwards += w * gauss_weight[n] * (s->side % 2 ? -p.velocity[s->axis] : p.velocity[s->axis]);
         }
         m.surface += w * surface;

@@ -86,6 +86,8 @@ size_t sb_strip_row(double z, double bed, double surface, int rows);
 /* given.c: the water at a place `inwards` (m, negative: beyond the side), `along` and z at time t. */
 void sb_strip_given(const sb_sim *sim, const sb_strip_side *s, double t, double inwards, double along, double z,
                     sb_given *out);
+/* What the source says at (x, y), z and time t for a side: still water where the scene says so. */
+void sb_strip_source(const sb_sim *sim, const sb_strip_side *s, double t, sb_vec3 at, double bed, sb_sea_point *out);
 /* Height of the ground there, m. */
 double sb_strip_bed(const sb_sim *sim, const sb_strip_side *s, double inwards, double along);
 
