@@ -17,13 +17,6 @@ struct sb_plane_record {
     point *points; /* in the middles of equal parts of the plane */
 };
 
-static double bspline(double u)
-{
-    u = fabs(u);
-    if (u < 1) return 2.0 / 3 - u * u * (1 - u / 2);
-    return u < 2 ? (2 - u) * (2 - u) * (2 - u) / 6 : 0;
-}
-
 static sb_status place_points(sb_plane_record *made, const sb_scene *scene, const sb_model *model,
                               const sb_flow_plane *plane, sb_error *error)
 {
@@ -107,8 +100,8 @@ static sb_vec3 layer_velocity(const sb_measure_view *view, const point *p, doubl
     for (size_t i = 0; i < view->cloud->count; i++) {
         const sb_fluid_sample *sample = &view->cloud->samples[i];
         const double z = sample->position.z - middle;
-        const double weight = bspline(z / reach) * bspline((sample->position.x - p->x) / width) *
-                              (flat ? 1 : bspline((sample->position.y - p->y) / width));
+        const double weight = sb_bspline(z / reach) * sb_bspline((sample->position.x - p->x) / width) *
+                              (flat ? 1 : sb_bspline((sample->position.y - p->y) / width));
         s.weight += weight;
         s.z += weight * z;
         s.zz += weight * z * z;
