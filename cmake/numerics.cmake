@@ -2,7 +2,7 @@
 # compiled. It runs at build time. An unchanged file is not written again.
 cmake_minimum_required(VERSION 3.25)
 set(sources "")
-foreach(folder base/vec.h base/random.h physics geometry sim measure)
+foreach(folder base/vec.h base/random.h base/multiversion.h physics geometry sea sim measure)
     if(folder MATCHES "\\.h$")
         list(APPEND sources src/${folder})
     else()

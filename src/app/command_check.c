@@ -1,5 +1,6 @@
 #include "app/commands.h"
 #include "app/fit.h"
+#include "app/grid_water.h"
 #include "app/options.h"
 #include "app/pace.h"
 #include "app/room.h"
@@ -7,6 +8,7 @@
 #include "app/warnings.h"
 #include "geometry/model/model.h"
 #include "output/json.h"
+#include "sea/sea.h"
 #include "sim/sim.h"
 
 #include <math.h>
@@ -28,6 +30,7 @@ static const double PARTICLE_FILE_BYTES = 52, PICTURE_BYTES = 7e5, CHECKPOINT_BY
 typedef struct estimate {
     double steps, time_step, seconds, memory, disk, ghosts;
     int settling, settling_most; /* steps */
+    const sb_sea_source *sea;    /* NULL: no water is given */
 } estimate;
 
 /* Seconds per step and fluid particle with the present number of threads. */
@@ -87,6 +90,21 @@ static void print_json(void *context, const char *text)
     sb_json_text(context, NULL, text);
 }
 
+/* What the strip of a side of kind sea holds. */
+static void report_sea(const sb_model *model, int side)
+{
+    const sb_model_sea *sea = &model->sea[side];
+    double low = (double)INFINITY, high = -(double)INFINITY;
+    if (sea->along == 0) return;
+    for (size_t c = 0; c < sea->along * sea->across; c++) {
+        low = fmin(low, sea->bed[c]);
+        high = fmax(high, sea->bed[c]);
+    }
+    printf("  sea at %s       %zu column%s, a strip %g m wide is held to the given water, %g m are measured;\n"
+           "                     ground from %g to %g m\n",
+           sb_side_names[side], sea->along, sea->along == 1 ? "" : "s", sea->strip, sea->width - sea->strip, low, high);
+}
+
 static void report_text(const sb_scene *scene, const sb_model *model, const estimate *e)
 {
     printf("%s\n", scene->title);
@@ -95,6 +113,8 @@ static void report_text(const sb_scene *scene, const sb_model *model, const esti
     printf("  boundary particles %zu on %zu bodies\n", model->wall_count, model->body_count);
     if (e->ghosts > 0) printf("  ghost particles    about %.0f beyond periodic sides\n", e->ghosts);
     printf("  still depth        %g m (%.1f particles)\n", model->still_depth, model->still_depth / scene->resolution);
+    if (e->sea) printf("  given water        %s\n", sb_sea_about(e->sea));
+    for (int side = 0; side < 4; side++) report_sea(model, side);
     printf("  memory             about %.0f MB\n", e->memory / 1e6);
     printf("  steps              about %.0f of %.3g s\n", e->steps, e->time_step);
     if (e->settling > 0)
@@ -118,6 +138,7 @@ static void report_json(const sb_scene *scene, const sb_model *model, const esti
     sb_json_count(&json, "boundary_particles", model->wall_count);
     sb_json_number(&json, "ghost_particles", e->ghosts);
     sb_json_number(&json, "still_depth_m", model->still_depth);
+    if (e->sea) sb_json_text(&json, "given_water", sb_sea_about(e->sea));
     sb_json_number(&json, "memory_bytes", e->memory);
     sb_json_number(&json, "steps", e->steps);
     sb_json_number(&json, "time_step_s", e->time_step);
@@ -147,6 +168,7 @@ int sb_command_check(int count, char **arguments)
     sb_error error = {0};
     sb_scene scene = {0};
     sb_model model = {0};
+    sb_sea_source *sea = NULL;
     sb_status status = sb_options_parse(count, arguments, SB_OPT_JSON | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_THREADS,
                                         "scene", &options, &error);
     if (status == SB_OK && options.help) {
@@ -154,14 +176,19 @@ int sb_command_check(int count, char **arguments)
         return 0;
     }
     if (status == SB_OK) status = sb_options_scene(&options, options.positional, &scene, &error);
-    if (status == SB_OK) status = sb_fit_check(&scene, &error);
-    if (status == SB_OK) status = sb_model_build(&scene, &model, &error);
-    if (status == SB_OK) {
+    const bool grid = status == SB_OK && scene.offshore.present;
+    if (grid) status = sb_grid_check(&scene, options.json, &error);
+    if (status == SB_OK && scene.given.source != SB_GIVEN_NONE) status = sb_sea_create(&scene, &sea, &error);
+    if (status == SB_OK && !grid) status = sb_fit_check(&scene, &error);
+    if (status == SB_OK && !grid) status = sb_model_build(&scene, &model, &error);
+    if (status == SB_OK && !grid) {
         estimate e = make_estimate(&scene, &model);
+        e.sea = sea;
         (options.json ? report_json : report_text)(&scene, &model, &e);
-    } else {
+    } else if (status != SB_OK) {
         fprintf(stderr, "shorebreak: %s\n", error.text);
     }
+    sb_sea_destroy(sea);
     sb_model_free(&model);
     sb_scene_free(&scene);
     sb_options_free(&options);

@@ -1,5 +1,6 @@
 #include "app/commands.h"
 #include "app/consumers.h"
+#include "app/grid_water.h"
 #include "app/lock.h"
 #include "app/options.h"
 #include "app/render_log.h"
@@ -117,6 +118,7 @@ static sb_status open_run(job *j, const sb_options *options, sb_error *error)
     sb_status status = sb_path_join(scene_path, j->source, "scene.yaml", error);
     if (status == SB_OK && access(j->source, F_OK) == 0) status = check_run(j->source, error);
     if (status == SB_OK) status = sb_options_scene(options, scene_path, &j->scene, error);
+    if (status == SB_OK) status = sb_grid_refuse(&j->scene, "render", error);
     if (status == SB_OK) status = choose_camera(&j->scene, options->camera, &j->camera, error);
     return status == SB_OK ? read_list(j->source, j->format, &j->list, error) : status;
 }

@@ -1,4 +1,5 @@
 #include "app/commands.h"
+#include "app/grid_water.h"
 #include "app/options.h"
 #include "app/run.h"
 #include "base/file.h"
@@ -11,7 +12,8 @@
 static const char help[] =
     "usage: shorebreak run SCENE [OPTIONS]\n"
     "Simulates the scene and writes forces.csv, gauges.csv, probes.csv, pictures, particle files, plots,\n"
-    "run.jsonl and summary.json.\n\n"
+    "run.jsonl and summary.json. A scene with offshore runs without particles and writes gauges.csv, maps and "
+    "grids.\n\n"
     "  --out DIR            write the results to DIR (default: runs/<name of the scene file>)\n"
     "  --until T            stop at T seconds instead of the scene's duration\n"
     "  --threads N          number of simulation threads (default: one per available core)\n"
@@ -92,7 +94,7 @@ int sb_command_run(int count, char **arguments)
                                             .live_port = options.live_port,
                                             .live_address = options.live_address,
                                             .thread_remains = &thread_remains};
-        status = sb_run(&scene, out, &run_options, &error);
+        status = (scene.offshore.present ? sb_grid_run : sb_run)(&scene, out, &run_options, &error);
     }
     if (status != SB_OK) fprintf(stderr, "shorebreak: %s\n", error.text);
     if (thread_remains) { /* a library's exit handler could wait for that thread, or free memory that it uses */

@@ -1,4 +1,5 @@
 #include "app/commands.h"
+#include "app/grid_water.h"
 #include "app/options.h"
 #include "app/team.h"
 #include "base/file.h"
@@ -77,6 +78,7 @@ int sb_command_sample(int count, char **arguments)
     if (status == SB_OK) status = sb_options_scene(&options, options.positional, &scene, &error);
     if (status == SB_OK) sb_team_warnings(warn, NULL);
     if (status == SB_OK) status = check_output_path(options.positional, options.out, &error);
+    if (status == SB_OK) status = sb_grid_refuse(&scene, "sample", &error);
     if (status == SB_OK) status = sb_model_build(&scene, &model, &error);
     if (status == SB_OK) status = write_model(&model, options.out, &error);
     if (status == SB_OK)

@@ -5,6 +5,7 @@
 #include "output/csv_tables.h"
 #include "output/maps.h"
 #include "output/particle_format.h"
+#include "output/vti.h"
 #include "render/image.h"
 
 #include <dirent.h>
@@ -15,10 +16,11 @@
 
 #define PNG "\x89PNG"
 
-typedef enum place { CHECKPOINTS, PARTICLES, MAPS, PLOTS, REQUESTED, CAMERA, TOP } place;
+typedef enum place { CHECKPOINTS, PARTICLES, GRIDS, MAPS, PLOTS, REQUESTED, CAMERA, TOP } place;
 
 static const char *const folders[] = {[CHECKPOINTS] = "checkpoints",
                                       [PARTICLES] = SB_PARTICLE_FOLDER,
+                                      [GRIDS] = SB_VTI_FOLDER,
                                       [MAPS] = "maps",
                                       [PLOTS] = "plots",
                                       [REQUESTED] = "pictures",
@@ -44,6 +46,7 @@ static const struct {
     {TOP, "summary", NULL, ".json", "{", 0},
     {TOP, "control", NULL, ".token", "", 0},
     {TOP, NULL, sb_csv_name, ".csv", "time_s,", GROWS},
+    {TOP, SB_VTI_LIST, NULL, ".pvd", "<?xml", 0},
     {CHECKPOINTS, SB_CHECKPOINT_SETTLING, NULL, SB_CHECKPOINT_SUFFIX, SB_CHECKPOINT_KIND, 0},
     {MAPS, NULL, sb_map_name, ".asc", "ncols", 0},
     {MAPS, NULL, sb_map_name, ".png", PNG, 0},
@@ -191,6 +194,7 @@ static kind kind_of_known(place in, const char *name, size_t length)
 {
     if (in == CHECKPOINTS && sb_is_numbered(name, SB_CHECKPOINT_SUFFIX, 0))
         return (kind){.named = true, .start = SB_CHECKPOINT_KIND};
+    if (in == GRIDS && sb_is_numbered(name, ".vti", 0)) return (kind){.named = true, .start = SB_VTI_HEAD};
     for (size_t k = 0; k < sizeof known / sizeof *known; k++)
         for (size_t i = 0; known[k].in == in && known_name(k, i); i++)
             if (is_name(name, length, known_name(k, i), known[k].ending))

@@ -194,6 +194,9 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
     };
     summary.work = sb_sim_ledger(r->sim);
     sb_status found = sb_run_path(r, "summary.json", path, &reason);
+    if (r->measure &&
+        sb_measure_reflections(r->measure, &summary.reflections, &summary.reflection_count, &reason) != SB_OK)
+        sb_run_warn(r, "%s", reason.text);
     if (found == SB_OK) found = sb_summary_write(path, &summary, &reason);
     /* An earlier failure stays the reason. This failure is still reported, because the summary on disk says "running".
      */

@@ -1,10 +1,35 @@
 #include "app/warnings.h"
 
+#include "base/memory.h"
+#include "physics/dispersion.h"
+#include "physics/reflection.h"
 #include "physics/wavemaker.h"
 #include "sim/sim.h"
 
 #include <math.h>
 #include <stdio.h>
+
+/* Gauges near multiples of half a wavelength apart cannot tell incident from reflected waves. */
+static void warn_of_reflections(const sb_scene *scene, sb_warning_visit *visit, void *context)
+{
+    for (size_t r = 0; r < scene->measure.reflection_count; r++) {
+        const sb_reflection_set *set = &scene->measure.reflections[r];
+        double *places = sb_alloc(set->gauge_count, sizeof *places);
+        for (size_t i = 0; places && i < set->gauge_count; i++) places[i] = sb_reflection_place(scene, set, i);
+        for (int h = 1; places && h <= set->harmonics; h++) {
+            const double number = sb_wave_number(set->period / h, set->depth, scene->fluid.gravity);
+            char text[400];
+            if (sb_split_separation(places, set->gauge_count, number) >= SB_SEPARATION_TRUSTED) continue;
+            snprintf(
+                text, sizeof text,
+                "measure.reflections %s: all gauges lie near multiples of half the wavelength of %.4g m (period %.4g "
+                "s): incident and reflected waves cannot be told apart, expected other distances",
+                set->name, 2 * M_PI / number, set->period / h);
+            visit(context, text);
+        }
+        sb_free(places);
+    }
+}
 
 void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
@@ -24,15 +49,17 @@ void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *con
         visit(context, text);
     }
     const sb_initial_wave *wave = &scene->wave;
-    const bool first = wave->theory == SB_SOLITARY_BOUSSINESQ;
+    static const char *const names[] = {"third-order", "boussinesq", "serre"};
+    const bool first = wave->theory != SB_SOLITARY_THIRD_ORDER;
     const double good = first ? 0.3 : 0.4; /* largest accurate height, as a fraction of the depth */
     if (wave->kind == SB_INITIAL_SOLITARY && wave->height > good * wave->depth) {
         snprintf(text, sizeof text,
                  "water.wave.height: %g m is %.2g of the depth: the theory %s is accurate up to %g; the wave will shed "
                  "water",
-                 wave->height, wave->height / wave->depth, first ? "boussinesq" : "third-order", good);
+                 wave->height, wave->height / wave->depth, names[wave->theory], good);
         visit(context, text);
     }
+    warn_of_reflections(scene, visit, context);
     if (scene->measure.interval > scene->duration) {
         snprintf(text, sizeof text,
                  "measure.interval: %g s is longer than the run of %g s: forces.csv gets no row, and the other tables "

@@ -4,6 +4,8 @@
 
 #include "base/vec.h"
 
+#include <stdint.h>
+
 /* Kinetic and potential energy (J, potential from z = domain min), momentum (kg m/s), mass (kg). */
 typedef struct sb_energy {
     double kinetic, potential, mass;
@@ -21,6 +23,16 @@ typedef struct sb_ledger {
     double integration; /* change of potential energy plus the work of gravity: the error of the time integration */
     double left;        /* minus the energy of particles that left the domain */
     double stress;      /* deviatoric stress correction */
+    double sea;         /* water that crosses sides of kind sea, and what holds their water to the given sea */
 } sb_ledger;
+
+/* What has crossed the sides of kind sea since t = 0. All members are of eight bytes. */
+typedef struct sb_crossing {
+    uint64_t in, out; /* particles */
+    double energy;    /* J, kinetic and potential from z = domain min, net inwards */
+    double held;      /* J, work of what holds the water of the strips to the given sea */
+    sb_vec3 momentum; /* kg m/s, of the particles, net inwards */
+    sb_vec3 push;     /* kg m/s, by what holds the water of the strips */
+} sb_crossing;
 
 #endif

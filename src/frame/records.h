@@ -4,6 +4,7 @@
 
 #include "base/vec.h"
 #include "frame/energy.h"
+#include "scene/record_columns.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -45,6 +46,23 @@ typedef struct sb_runup_record {
     double apart;  /* m of the line that only unconnected water covers: puddles, thin films, drops */
 } sb_runup_record;
 
+/* The waves of one period at a set of gauges in one window. NaN: the gauges do not determine them. */
+typedef struct sb_reflection_record {
+    size_t set, harmonic;       /* harmonic: 1 for the set's period, 2 for half of it, ... */
+    double from, time;          /* s, the window */
+    double period, wavelength;  /* s, m */
+    double incident, reflected; /* m, amplitudes */
+    double misfit, separation;  /* m, and a number from 0 to 1: see physics/reflection.h */
+} sb_reflection_record;
+
+/* The water at a point of a recorded plane. */
+typedef struct sb_water_record {
+    size_t plane;
+    double time, x, y, surface, bed; /* s, m; surface: z, NaN when dry; bed: z */
+    sb_vec3
+        velocity[SB_RECORD_LAYERS]; /* m/s, in the middles of equal layers from the bed upwards; NaN: no particles */
+} sb_water_record;
+
 /* At the end of the first step that passed a multiple of the interval. */
 typedef struct sb_energy_record {
     double time, kinetic, potential, mass; /* s, J, J, kg */
@@ -62,6 +80,10 @@ typedef struct sb_measure_records {
     const sb_flow_record *flows;
     const sb_runup_record *runups;
     const sb_energy_record *energies;
+    size_t reflection_count;
+    const sb_reflection_record *reflections;
+    size_t water_count;
+    const sb_water_record *waters;
 } sb_measure_records;
 
 /* Totals of one body over the whole run. */
@@ -85,6 +107,7 @@ typedef struct sb_map_record {
     const float *flux;         /* m^3/s^2, depth times mean square of the horizontal speed */
     const float
         *arrival; /* s, when the depth at the start, or later the rise above it, was first at least the threshold */
+    const float *duration; /* s of inundation of cells that were dry at the start; NULL: not recorded */
 } sb_map_record;
 
 #endif

@@ -15,13 +15,6 @@
 
 #define STRETCH 2.0
 
-static double bspline(double u)
-{
-    u = fabs(u);
-    if (u < 1) return 2.0 / 3 - u * u * (1 - u / 2);
-    return u < 2 ? (2 - u) * (2 - u) * (2 - u) / 6 : 0;
-}
-
 /* The water column at a gauge: samples sorted by rising z; .density holds the horizontal weight. */
 typedef struct column {
     const sb_fluid_sample *samples;
@@ -42,7 +35,7 @@ static double color_at(const column *c, double z)
     }
     double sum = 0;
     for (size_t i = low; i < c->count && c->samples[i].position.z < z + 2 * c->spacing; i++)
-        sum += c->samples[i].density * bspline((z - c->samples[i].position.z) / c->spacing);
+        sum += c->samples[i].density * sb_bspline((z - c->samples[i].position.z) / c->spacing);
     return sum;
 }
 
@@ -106,8 +99,8 @@ static sb_status find_column(const sb_measure_view *view, double x, double y, do
     sb_status status = sb_cloud_query(cloud, view->sim, min, max, view->lag, error);
     for (size_t i = 0; status == SB_OK && i < cloud->count; i++) {
         sb_fluid_sample *sample = &cloud->samples[i];
-        sample->density = bspline((sample->position.x - x) / (STRETCH * spacing)) *
-                          (flat ? 1 : bspline((sample->position.y - y) / (STRETCH * spacing)) / STRETCH) / STRETCH;
+        sample->density = sb_bspline((sample->position.x - x) / (STRETCH * spacing)) *
+                          (flat ? 1 : sb_bspline((sample->position.y - y) / (STRETCH * spacing)) / STRETCH) / STRETCH;
         c->water += sample->density * spacing;
     }
     if (status == SB_OK) status = sb_cloud_keep_heaviest(cloud, SB_LINK * spacing, error);

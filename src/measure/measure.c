@@ -4,8 +4,9 @@
 #include "measure/patch.h"
 #include "measure/state.h"
 
-static const size_t record_size[LISTS] = {sizeof(sb_force_record), sizeof(sb_gauge_record), sizeof(sb_probe_record),
-                                          sizeof(sb_flow_record),  sizeof(sb_runup_record), sizeof(sb_energy_record)};
+static const size_t record_size[LISTS] = {
+    sizeof(sb_force_record), sizeof(sb_gauge_record),  sizeof(sb_probe_record),      sizeof(sb_flow_record),
+    sizeof(sb_runup_record), sizeof(sb_energy_record), sizeof(sb_reflection_record), sizeof(sb_water_record)};
 
 static void *append(sb_measure *measure, int kind)
 {
@@ -82,6 +83,41 @@ static sb_status record_probe(sb_measure *measure, const sb_measure_view *view, 
                          &record->pressure, error);
 }
 
+/* Records the water along the recorded planes; `row` is the number of the interval that ends. */
+static sb_status record_waters(sb_measure *measure, const sb_measure_view *view, double time, uint64_t row,
+                               sb_error *error)
+{
+    sb_status status = SB_OK;
+    for (size_t i = 0; i < measure->scene->measure.plane_count; i++) {
+        const size_t count = sb_records_points(measure, i, row);
+        for (size_t p = 0; status == SB_OK && p < count; p++) {
+            sb_water_record *record = append(measure, WATERS);
+            if (!record) return sb_fail_memory(error, "records of planes");
+            status = sb_records_read(measure, view, i, p, time, record, error);
+        }
+    }
+    return status;
+}
+
+/* Adds the gauges' records of this instant, which are the last ones, to the sets of reflections. */
+static sb_status record_reflections(sb_measure *measure, double time, sb_error *error)
+{
+    const sb_measure_settings *settings = &measure->scene->measure;
+    const list *rows = &measure->lists[GAUGES];
+    sb_status status = SB_OK;
+    for (size_t i = 0; status == SB_OK && i < settings->reflection_count; i++) {
+        const sb_reflection_record *found;
+        const sb_gauge_record *gauges = (const sb_gauge_record *)rows->items + (rows->count - settings->gauge_count);
+        status = sb_reflections_add(measure, i, gauges, time, &found, error);
+        for (int h = 0; status == SB_OK && found && h < settings->reflections[i].harmonics; h++) {
+            sb_reflection_record *record = append(measure, REFLECTIONS);
+            if (!record) return sb_fail_memory(error, "reflection records");
+            *record = found[h];
+        }
+    }
+    return status;
+}
+
 /* Records gauges, probes and run-up lines at one instant: a fraction of the last step, or, if negative, the creation.
  */
 static sb_status record_instants(sb_measure *measure, const sb_measure_view *view, double time, double fraction,
@@ -105,6 +141,7 @@ static sb_status record_instants(sb_measure *measure, const sb_measure_view *vie
         else
             state->had_value = true;
     }
+    if (status == SB_OK) status = record_reflections(measure, time, error);
     for (size_t i = 0; status == SB_OK && i < settings->probe_count; i++)
         status = record_probe(measure, view, i, time, fraction, error);
     for (size_t i = 0; status == SB_OK && i < settings->runup_count; i++) {
@@ -165,7 +202,11 @@ static void publish(sb_measure *measure)
                                            .runup_count = lists[RUNUPS].count,
                                            .runups = lists[RUNUPS].items,
                                            .energy_count = lists[ENERGIES].count,
-                                           .energies = lists[ENERGIES].items};
+                                           .energies = lists[ENERGIES].items,
+                                           .reflection_count = lists[REFLECTIONS].count,
+                                           .reflections = lists[REFLECTIONS].items,
+                                           .water_count = lists[WATERS].count,
+                                           .waters = lists[WATERS].items};
 }
 
 static void note_skipped(sb_measure *measure)
@@ -244,8 +285,11 @@ sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, sb_sim
     sb_measure_view view = view_of(made, sim, 0);
     sb_status status = prepare_bodies(made, sim, error);
     if (status == SB_OK) status = prepare_fields(made, &view, error);
+    if (status == SB_OK) status = sb_reflections_create(made, error);
+    if (status == SB_OK) status = sb_records_create(made, error);
     if (status == SB_OK) status = sb_wall_probes_start(made, sim, error);
     if (status == SB_OK) status = record_instants(made, &view, made->time, -1, error);
+    if (status == SB_OK) status = record_waters(made, &view, made->time, made->next - 1, error);
     if (status == SB_OK) status = record_flows(made, made->time, 0, error);
     if (status == SB_OK) status = record_layers(made, &view, error);
     if (status == SB_OK) status = record_energy(made, sim, error);
@@ -277,6 +321,8 @@ void sb_measure_destroy(sb_measure *measure)
     sb_free(measure->planes);
     sb_free(measure->states);
     sb_free(measure->bodies);
+    sb_reflections_destroy(measure);
+    sb_records_destroy(measure);
     sb_map_destroy(measure->map);
     sb_cloud_free(&measure->cloud);
     sb_free(measure);
@@ -292,6 +338,7 @@ static sb_status record_boundary(sb_measure *measure, const sb_sim *sim, double 
     sb_status status = record_forces(measure, sim, time, fraction, error);
     if (status == SB_OK) status = record_flows(measure, time, fraction, error);
     if (status == SB_OK) status = record_instants(measure, &view, time, fraction, error);
+    if (status == SB_OK) status = record_waters(measure, &view, time, measure->next, error);
     return status;
 }
 
@@ -386,5 +433,6 @@ size_t sb_measure_bytes(const sb_measure *measure)
         bytes += sizeof *measure->planes + sb_plane_counter_bytes(measure->counters[i]);
     for (size_t i = 0; i < measure->scene->measure.probe_count; i++)
         bytes += sizeof(sb_patch *) + sizeof *measure->probes + sb_patch_bytes(measure->patches[i]);
+    bytes += measure->split_count * sizeof *measure->split_rows;
     return bytes + (measure->map ? sb_map_bytes(measure->map) : 0);
 }

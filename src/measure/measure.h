@@ -36,6 +36,11 @@ const sb_body_record *sb_measure_bodies(const sb_measure *measure);
 /* The map so far, or NULL when the scene has none. */
 const sb_map_record *sb_measure_map(const sb_measure *measure);
 
+/* Finds the rows of all sets of measure.reflections over the whole time since their start. The rows are valid until the
+   next step. SB_FAILED without memory. */
+sb_status sb_measure_reflections(sb_measure *measure, const sb_reflection_record **rows, size_t *count,
+                                 sb_error *error);
+
 /* For a gauge that had no value in any row so far: the greatest depth of the water there, m. Otherwise 0. */
 double sb_measure_gauge_missed(const sb_measure *measure, size_t gauge);
 

@@ -6,6 +6,8 @@
 #include "measure/cloud.h"
 #include "measure/floors.h"
 
+#include <math.h>
+
 /* The simulation and the instant at which a measurement reads it; shared by all measurements. */
 typedef struct sb_measure_view {
     const sb_scene *scene;
@@ -25,6 +27,14 @@ static inline double sb_repeat_length(const sb_scene *scene, sb_vec3 min, sb_vec
 /* Distance below which particles are connected, in spacings. It exceeds the diagonal of a lattice face, 1.41. With
    the next distance in a lattice, 1.73, particles would be connected across a missing layer. */
 #define SB_LINK 1.5
+
+/* The cubic B-spline of support 2: it sums to 1 over the integers at any shift. */
+static inline double sb_bspline(double u)
+{
+    u = fabs(u);
+    if (u < 1) return 2.0 / 3 - u * u * (1 - u / 2);
+    return u < 2 ? (2 - u) * (2 - u) * (2 - u) / 6 : 0;
+}
 
 /* Absolute elevation z of the free surface at (x, y) in m, NaN when dry. floors are those of (x, y). See gauge.c for
    the method. *water: depth of all water there in m, also where it is too thin to have a surface. */

@@ -72,6 +72,7 @@ void sb_measure_save(const sb_measure *measure, sb_archive_out *out)
         sb_put_real(out, measure->probes[i].boundary);
         sb_put_real(out, measure->probes[i].last);
     }
+    sb_reflections_save(measure, out);
     sb_put_flag(out, measure->map != NULL);
     if (measure->map) sb_map_save(measure->map, out);
 }
@@ -135,6 +136,7 @@ sb_status sb_measure_load(sb_measure *measure, sb_archive_in *in, sb_error *erro
     if (status != SB_OK) return status;
     take_gauges(measure, in);
     take_probes(measure, in);
+    sb_reflections_load(measure, in);
     if (sb_take_flag(in) != (measure->map != NULL))
         sb_archive_refuse(in, measure->map ? "no map, expected one" : "a map, expected none");
     if (measure->map) sb_map_load(measure->map, in);

@@ -11,7 +11,7 @@ typedef struct list {
     size_t count, capacity;
 } list;
 
-enum { FORCES, GAUGES, PROBES, FLOWS, RUNUPS, ENERGIES, LISTS };
+enum { FORCES, GAUGES, PROBES, FLOWS, RUNUPS, ENERGIES, REFLECTIONS, WATERS, LISTS };
 
 /* Impulses at the creation, at the last multiple of the interval and at the last step's end. */
 typedef struct body_state {
@@ -36,6 +36,16 @@ typedef struct gauge_state {
     double deepest;
 } gauge_state;
 
+/* A set of gauges: sums of each gauge's fit in the window that began at `from`, and since the set's start up to `last`.
+ */
+typedef struct split_state {
+    double from, last; /* s */
+    double *window, *whole;
+} split_state;
+
+/* See record.c. */
+typedef struct sb_plane_record sb_plane_record;
+
 enum { MAX_SKIPPED = 8 };
 
 struct sb_measurements {
@@ -48,10 +58,14 @@ struct sb_measurements {
     sb_body_record *bodies;
     plane_state *planes;
     sb_plane_counter **counters;
-    sb_floors *floors; /* one per gauge */
+    sb_plane_record **records; /* one per plane, NULL for planes without; NULL: no plane has one */
+    sb_floors *floors;         /* one per gauge */
     gauge_state *gauges;
     sb_patch **patches; /* one per probe */
     probe_state *probes;
+    split_state *splits;              /* one per set of measure.reflections */
+    size_t split_count;               /* rows of all sets */
+    sb_reflection_record *split_rows; /* scratch: of one window of each set */
     sb_map_field *map;
     sb_cloud cloud;
     list lists[LISTS];
@@ -65,5 +79,23 @@ sb_status sb_wall_probes_start(const sb_measure *measure, sb_sim *sim, sb_error 
 void sb_wall_probes_step(sb_measure *measure, const sb_sim *sim, double taken);
 /* Returns the mean pressure of the interval that ends at this fraction of the last step, and begins the next one. */
 double sb_wall_probe_mean(sb_measure *measure, size_t probe, double fraction);
+
+/* record.c: the points of the planes that are recorded. */
+sb_status sb_records_create(sb_measure *measure, sb_error *error);
+void sb_records_destroy(sb_measure *measure);
+/* The number of points that a plane records in this row; rows are multiples of the interval. */
+size_t sb_records_points(const sb_measure *measure, size_t plane, uint64_t row);
+/* Reads one of these points. */
+sb_status sb_records_read(const sb_measure *measure, const sb_measure_view *view, size_t plane, size_t index,
+                          double time, sb_water_record *row, sb_error *error);
+
+/* reflections.c: the states of all sets. */
+sb_status sb_reflections_create(sb_measure *measure, sb_error *error);
+void sb_reflections_destroy(sb_measure *measure);
+/* Adds the row of all gauges at `time` to a set. *rows: those of the window that ended, one per harmonic; or NULL. */
+sb_status sb_reflections_add(sb_measure *measure, size_t set, const sb_gauge_record *gauges, double time,
+                             const sb_reflection_record **rows, sb_error *error);
+void sb_reflections_save(const sb_measure *measure, sb_archive_out *out);
+void sb_reflections_load(sb_measure *measure, sb_archive_in *in);
 
 #endif

@@ -1,6 +1,8 @@
 /* The tables of a run: what is in each line. To add a table, add a row below, and one to SB_CSV_TABLES. */
 #include "output/csv_tables.h"
 
+#include "scene/record_columns.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -113,9 +115,9 @@ static void write_energies(FILE *stream, const sb_scene *scene, const sb_model *
     (void)model;
     const sb_energy_record *row = &records->energies[i];
     const sb_ledger *ledger = &row->ledger;
-    const double changes[] = {ledger->bodies,   ledger->viscosity,       ledger->friction,
-                              ledger->pressure, ledger->contact,         ledger->integration,
-                              ledger->left,     row->momentum_imbalance, ledger->stress};
+    const double changes[] = {ledger->bodies,  ledger->viscosity,   ledger->friction, ledger->pressure,
+                              ledger->contact, ledger->integration, ledger->left,     row->momentum_imbalance,
+                              ledger->stress,  ledger->sea};
     begin(stream, row->time, NULL);
     put(stream, row->kinetic);
     put_fine(stream, row->potential);
@@ -165,6 +167,55 @@ static void write_runups(FILE *stream, const sb_scene *scene, const sb_model *mo
     put(stream, row->apart);
 }
 
+static bool has_reflections(const sb_scene *scene)
+{
+    return scene->measure.reflection_count > 0;
+}
+
+static size_t count_reflections(const sb_measure_records *records)
+{
+    return records->reflection_count;
+}
+
+static void write_reflections(FILE *stream, const sb_scene *scene, const sb_model *model,
+                              const sb_measure_records *records, size_t i)
+{
+    (void)model;
+    const sb_reflection_record *row = &records->reflections[i];
+    begin(stream, row->time, scene->measure.reflections[row->set].name);
+    const double values[] = {
+        row->from,      (double)row->harmonic,          row->period, row->wavelength, row->incident,
+        row->reflected, row->reflected / row->incident, row->misfit, row->separation};
+    for (size_t c = 0; c < sizeof values / sizeof *values; c++) put(stream, values[c]);
+}
+
+static bool has_record(const sb_scene *scene)
+{
+    bool any = false;
+    for (size_t i = 0; i < scene->measure.plane_count; i++) any = any || scene->measure.planes[i].record;
+    return any;
+}
+
+static size_t count_waters(const sb_measure_records *records)
+{
+    return records->water_count;
+}
+
+static void write_waters(FILE *stream, const sb_scene *scene, const sb_model *model, const sb_measure_records *records,
+                         size_t i)
+{
+    (void)model;
+    const sb_water_record *row = &records->waters[i];
+    begin(stream, row->time, scene->measure.planes[row->plane].name);
+    put(stream, row->x);
+    put(stream, row->y);
+    put(stream, row->surface);
+    put(stream, row->bed);
+    for (int j = 0; j < SB_RECORD_LAYERS; j++) put(stream, row->velocity[j].x);
+    for (int j = 0; j < SB_RECORD_LAYERS; j++) put(stream, row->velocity[j].y);
+    for (int j = 0; j < SB_RECORD_LAYERS; j++) put(stream, row->velocity[j].z);
+}
+
 const sb_csv_table sb_csv_tables[] = {
     {.name = "forces",
      .header = "time_s,body,Fx_N,Fy_N,Fz_N,Mx_Nm,My_Nm,Mz_Nm,Fx_pressure_N,Fy_pressure_N,"
@@ -190,11 +241,12 @@ const sb_csv_table sb_csv_tables[] = {
     {.name = "energy",
      .header = "time_s,kinetic_J,potential_J,mass_kg,momentum_x_kg_m_s,momentum_y_kg_m_s,"
                "momentum_z_kg_m_s,bodies_J,viscosity_J,wall_friction_J,pressure_solve_J,contact_J,"
-               "time_integration_J,left_domain_J,momentum_imbalance,packing_stress_J",
-     .flat_header = "time_s,kinetic_J_per_m,potential_J_per_m,mass_kg_per_m,momentum_x_kg_m_s_per_m,"
-                    "momentum_y_kg_m_s_per_m,momentum_z_kg_m_s_per_m,bodies_J_per_m,viscosity_J_per_m,"
-                    "wall_friction_J_per_m,pressure_solve_J_per_m,contact_J_per_m,"
-                    "time_integration_J_per_m,left_domain_J_per_m,momentum_imbalance,packing_stress_J_per_m",
+               "time_integration_J,left_domain_J,momentum_imbalance,packing_stress_J,sea_J",
+     .flat_header =
+         "time_s,kinetic_J_per_m,potential_J_per_m,mass_kg_per_m,momentum_x_kg_m_s_per_m,"
+         "momentum_y_kg_m_s_per_m,momentum_z_kg_m_s_per_m,bodies_J_per_m,viscosity_J_per_m,"
+         "wall_friction_J_per_m,pressure_solve_J_per_m,contact_J_per_m,"
+         "time_integration_J_per_m,left_domain_J_per_m,momentum_imbalance,packing_stress_J_per_m,sea_J_per_m",
      .wanted = NULL,
      .count = count_energies,
      .write = write_energies},
@@ -210,6 +262,20 @@ const sb_csv_table sb_csv_tables[] = {
      .wanted = has_lines,
      .count = count_runups,
      .write = write_runups},
+    {.name = "reflections",
+     .header =
+         "time_s,set,from_s,harmonic,period_s,wavelength_m,incident_m,reflected_m,coefficient,misfit_m,separation",
+     .flat_header =
+         "time_s,set,from_s,harmonic,period_s,wavelength_m,incident_m,reflected_m,coefficient,misfit_m,separation",
+     .wanted = has_reflections,
+     .count = count_reflections,
+     .write = write_reflections},
+    {.name = "record",
+     .header = SB_RECORD_HEADER,
+     .flat_header = SB_RECORD_HEADER,
+     .wanted = has_record,
+     .count = count_waters,
+     .write = write_waters},
 };
 _Static_assert(sizeof sb_csv_tables == SB_CSV_TABLES * sizeof *sb_csv_tables, "one mark per table");
 

@@ -12,6 +12,8 @@ const sb_map_row sb_map_rows[] = {
      "0 '#fff7f3', 0.5 '#f768a1', 1 '#49006a'", true},
     {"arrival_time", offsetof(sb_map_record, arrival), "arrival time (s)", "0 '#440154', 0.5 '#21918c', 1 '#fde725'",
      false},
+    {"inundation_time", offsetof(sb_map_record, duration), "duration of inundation (s)",
+     "0 '#ffffff', 0.02 '#e5f5e0', 0.5 '#41ab5d', 1 '#00441b'", true},
     {.name = NULL},
 };
 
@@ -28,6 +30,7 @@ sb_status sb_maps_write(const char *directory, const sb_map_record *map, sb_erro
     sb_status status = sb_make_folder(path, directory, "maps", error);
     for (size_t i = 0; status == SB_OK && i < MAPS; i++) {
         const float *const *values = (const void *)((const char *)map + sb_map_rows[i].values);
+        if (!*values) continue;
         snprintf(name, sizeof name, "maps/%s.asc", sb_map_rows[i].name);
         status = sb_path_join(path, directory, name, error);
         if (status == SB_OK) status = sb_esri_write(path, map, *values, error);

@@ -19,7 +19,7 @@ extern const sb_map_row sb_map_rows[];
 /* The name of a map; NULL after the last one. */
 const char *sb_map_name(size_t map);
 
-/* Writes maps/<name>.asc for each row, below directory. */
+/* Writes maps/<name>.asc for each row whose values are recorded, below directory. */
 sb_status sb_maps_write(const char *directory, const sb_map_record *map, sb_error *error);
 
 #endif

@@ -50,6 +50,25 @@ void sb_summary_put_work(sb_json *json, const sb_ledger *work)
     sb_json_number(json, "time_integration_J", work->integration);
     sb_json_number(json, "left_domain_J", work->left);
     sb_json_number(json, "packing_stress_J", work->stress);
+    sb_json_number(json, "sea_J", work->sea);
+    sb_json_close(json);
+}
+
+static void put_reflections(sb_json *json, const sb_summary *s)
+{
+    sb_json_open(json, "reflections", '[');
+    for (size_t i = 0; i < s->reflection_count; i++) {
+        const sb_reflection_record *row = &s->reflections[i];
+        sb_json_open(json, NULL, '{');
+        sb_json_text(json, "name", s->scene->measure.reflections[row->set].name);
+        sb_json_number(json, "from_s", row->from);
+        sb_json_number(json, "to_s", row->time);
+        sb_json_number(json, "period_s", row->period);
+        sb_json_number(json, "incident_m", row->incident);
+        sb_json_number(json, "reflected_m", row->reflected);
+        sb_json_number(json, "coefficient", row->reflected / row->incident);
+        sb_json_close(json);
+    }
     sb_json_close(json);
 }
 
@@ -133,6 +152,7 @@ static void put_all(sb_json *json, const sb_summary *s)
     sb_json_count(json, "pictures_missing", s->pictures_missing);
     sb_json_hash(json, "state_hash", s->hash);
     put_bodies(json, s);
+    if (s->reflection_count > 0) put_reflections(json, s);
     sb_summary_put_energy(json, "energy_start", &s->first);
     sb_summary_put_energy(json, "energy_end", &s->last);
     if (s->work) sb_summary_put_work(json, s->work);

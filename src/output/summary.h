@@ -43,7 +43,9 @@ typedef struct sb_summary {
     uint64_t inside, crossed;            /* particles whose centre lies within a solid at the end: all; those deeper
                                             than its boundary particles */
     int threads;
-    const sb_body_record *bodies;              /* one per body of the model; NULL: none */
+    const sb_body_record *bodies; /* one per body of the model; NULL: none */
+    size_t reflection_count;
+    const sb_reflection_record *reflections;   /* since the start of each set */
     sb_energy first, last;                     /* energies at the start and at the end */
     const sb_ledger *work;                     /* energy ledger; NULL: there was no simulation */
     uint64_t hash;                             /* of the final state */

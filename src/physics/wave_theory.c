@@ -12,7 +12,8 @@ typedef struct phase {
 
 static phase phase_at(const sb_solitary *wave, double xi)
 {
-    const double e = wave->height / wave->depth, first = sqrt(0.75 * e);
+    const double e = wave->height / wave->depth;
+    const double first = sqrt(0.75 * e / (wave->theory == SB_SOLITARY_SERRE ? 1 + e : 1));
     const bool third = wave->theory == SB_SOLITARY_THIRD_ORDER;
     const double alpha = third ? first * (1 + e * (-5 / 8.0 + e * 71 / 128.0)) : first;
     const double sech = 1 / cosh(alpha * xi / wave->depth); /* underflows to the limit 0 far from the crest */
@@ -62,10 +63,26 @@ static void third_order(const sb_solitary *wave, const phase *p, double z, doubl
 void sb_solitary_velocity(const sb_solitary *wave, double xi, double z, double *u, double *w)
 {
     const phase p = phase_at(wave, xi);
-    if (wave->theory == SB_SOLITARY_BOUSSINESQ)
-        first_order(wave, &p, z, u, w);
-    else
+    if (wave->theory == SB_SOLITARY_THIRD_ORDER)
         third_order(wave, &p, z, u, w);
+    else
+        first_order(wave, &p, z, u, w);
+}
+
+void sb_solitary_motion(const sb_solitary *wave, double xi, double z, sb_wave_motion *motion)
+{
+    /* A wave of constant form has d/dt = -C d/dxi. Weights of the fourth-order difference at -2, -1, 1, 2 steps. */
+    static const double weights[] = {1 / 12.0, -8 / 12.0, 8 / 12.0, -1 / 12.0};
+    static const double places[] = {-2, -1, 1, 2};
+    const double step = 1e-3 * wave->depth, scale = -sb_solitary_celerity(wave) / step;
+    *motion = (sb_wave_motion){.elevation = sb_solitary_elevation(wave, xi)};
+    sb_solitary_velocity(wave, xi, z, &motion->u, &motion->w);
+    for (int i = 0; i < 4; i++) {
+        double u, w;
+        sb_solitary_velocity(wave, xi + places[i] * step, z, &u, &w);
+        motion->u_rate += scale * weights[i] * u;
+        motion->w_rate += scale * weights[i] * w;
+    }
 }
 
 double sb_standing_elevation(double amplitude, double wavelength, double x)

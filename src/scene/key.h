@@ -66,6 +66,7 @@ struct sb_table {
     size_t count;
     const sb_removed_key *removed; /* ends with a row without a name; NULL: none */
     size_t size;                   /* of the struct, for lists */
+    bool plain;                    /* an item may be the plain value of the first key */
     /* Returns the bits of the rows that apply. They follow from the values read so far and from the keys present (map;
        NULL when writing). */
     unsigned (*variant)(const void *item, const sb_yaml *map);
@@ -82,7 +83,8 @@ struct sb_table {
 
 /* The table of the whole scene, and those of its blocks that are in other files. */
 extern const sb_table sb_scene_table;
-extern const sb_table sb_numerics_table, sb_water_table, sb_body_table, sb_wavemaker_table;
+extern const sb_table sb_numerics_table, sb_offshore_table, sb_wave_table, sb_water_table, sb_given_table,
+    sb_body_table, sb_wavemaker_table, sb_reflection_table;
 extern const sb_table sb_measure_table, sb_render_table, sb_stream_table, sb_control_table, sb_output_table;
 
 /* Bits of the rows that apply to this item; all bits if the table has only one variant. */

@@ -114,7 +114,12 @@ static sb_status read_list(sb_reader *reader, const sb_yaml *list, const sb_key 
     sb_status status = make_items(reader, key, list->count, item, &items);
     for (size_t i = 0; status == SB_OK && i < list->count; i++) {
         size_t length = path_push(reader, NULL, i);
-        status = sb_reader_block(reader, &list->items[i], key->table, items + i * key->table->size);
+        char *at = items + i * key->table->size;
+        const sb_key *first = &key->table->keys[0];
+        if (key->table->plain && list->items[i].kind == SB_YAML_SCALAR)
+            status = sb_reader_value(reader, &list->items[i], first, at + first->offset);
+        else
+            status = sb_reader_block(reader, &list->items[i], key->table, at);
         if (status == SB_OK) reader->path[length] = '\0';
     }
     return status == SB_OK ? refuse_same_name(reader, list, key->table, items) : status;

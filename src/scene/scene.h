@@ -6,6 +6,7 @@
 #include "base/status.h"
 #include "base/vec.h"
 #include "physics/kernel.h"
+#include "physics/regular_wave.h"
 #include "physics/wave_theory.h"
 #include "physics/wavemaker.h"
 
@@ -15,7 +16,7 @@
 
 enum { SB_NAME_MAX = 64 };
 
-typedef enum sb_side_kind { SB_SIDE_WALL, SB_SIDE_OPEN, SB_SIDE_PERIODIC } sb_side_kind;
+typedef enum sb_side_kind { SB_SIDE_WALL, SB_SIDE_OPEN, SB_SIDE_PERIODIC, SB_SIDE_SEA } sb_side_kind;
 enum { SB_X_MIN, SB_X_MAX, SB_Y_MIN, SB_Y_MAX, SB_Z_MIN, SB_Z_MAX, SB_SIDES };
 
 typedef struct sb_fluid_properties {
@@ -26,7 +27,7 @@ typedef struct sb_fluid_properties {
 
 typedef struct sb_domain {
     sb_vec3 min, max;            /* m */
-    sb_side_kind side[SB_SIDES]; /* periodic: pairs along x or y */
+    sb_side_kind side[SB_SIDES]; /* periodic: pairs along x or y; sea: not along z */
 } sb_domain;
 
 /* The sea: all space below `level` that is connected with `seed`. */
@@ -53,6 +54,38 @@ typedef struct sb_initial_wave {
     int direction;             /* +1 towards +x, -1 towards -x */
     sb_solitary_theory theory; /* solitary wave only */
 } sb_initial_wave;
+
+/* Where the surface and velocity of the water at the sides of kind `sea` come from. NONE: still water. */
+typedef enum sb_given_source { SB_GIVEN_NONE, SB_GIVEN_THEORY, SB_GIVEN_TABLE, SB_GIVEN_RECORD } sb_given_source;
+typedef enum sb_given_wave { SB_GIVEN_SOLITARY, SB_GIVEN_REGULAR, SB_GIVEN_COMPONENTS } sb_given_wave;
+typedef enum sb_given_side { SB_GIVEN_HERE, SB_GIVEN_STILL } sb_given_side;
+typedef enum sb_given_unit { SB_UNIT_M, SB_UNIT_CM, SB_UNIT_MM, SB_UNIT_FT } sb_given_unit;
+
+typedef struct sb_given_component {
+    double amplitude, period, direction, phase; /* m, s, degrees, degrees */
+} sb_given_component;
+
+/* The block `sea`. Values of other sources and waves are 0. */
+typedef struct sb_given_sea {
+    sb_given_source source;
+    double level, start;   /* m, still-water level; s, time of the run at which the source has 0 s */
+    sb_given_side side[4]; /* from x_min to y_max; still: its water is still, and only waves from within pass */
+    /* theory */
+    sb_given_wave wave;
+    double depth, height, period; /* m, m, s */
+    double direction;             /* degrees from +x towards +y, of travel */
+    double origin[2];             /* m, where phases and times are given */
+    double ramp;                  /* s in which the wave grows from nothing; 0: none */
+    sb_wave_order order;          /* regular waves */
+    sb_solitary_theory theory;    /* solitary wave */
+    size_t component_count;
+    sb_given_component *components;
+    /* table, record */
+    char *file; /* absolute path */
+    sb_given_unit unit;
+    double datum;            /* m, z of the table's zero */
+    char plane[SB_NAME_MAX]; /* of the record */
+} sb_given_sea;
 
 typedef enum sb_preset { SB_PRESET_DEFAULT, SB_PRESET_PAPER } sb_preset;
 typedef enum sb_solver { SB_SOLVER_JACOBI, SB_SOLVER_CHEBYSHEV, SB_SOLVER_CG } sb_solver;
@@ -184,12 +217,32 @@ typedef struct sb_probe {
 typedef struct sb_flow_plane {
     char name[SB_NAME_MAX];
     double ax, ay, bx, by, z_min, z_max;
+    bool record;            /* surface and velocities along it are written to record.csv */
+    double record_interval; /* s between rows, a multiple of the interval; 0: not recorded */
+    double record_spacing;  /* m between points along the plane; 0: not recorded, or 2D */
 } sb_flow_plane;
 /* A line from (ax, ay) to (bx, by). Run-up is the highest z of connected water within one spacing of it. */
 typedef struct sb_runup_line {
     char name[SB_NAME_MAX];
     double ax, ay, bx, by;
 } sb_runup_line;
+
+/* The name of a gauge. */
+typedef struct sb_gauge_name {
+    char name[SB_NAME_MAX];
+} sb_gauge_name;
+/* Gauges in a line, whose waves are split into those that travel from the first gauge to the last, and those that come
+   back. */
+typedef struct sb_reflection_set {
+    char name[SB_NAME_MAX];
+    size_t gauge_count; /* at least 3 */
+    sb_gauge_name *gauges;
+    double period; /* s */
+    int harmonics; /* period, period/2, ..., period/harmonics are split */
+    double depth;  /* m, still-water depth, for the wave numbers */
+    double start;  /* s */
+    double window; /* s, at least one period */
+} sb_reflection_set;
 
 typedef struct sb_map {
     bool present;
@@ -207,8 +260,35 @@ typedef struct sb_measure {
     sb_flow_plane *planes;
     size_t runup_count;
     sb_runup_line *runups;
+    size_t reflection_count;
+    sb_reflection_set *reflections;
     sb_map map;
 } sb_measure_settings;
+
+/* Heights on a grid of the depth-averaged model: terrain, or an uplift of the surface. */
+typedef struct sb_offshore_grid {
+    char *file;           /* absolute path */
+    double scale;         /* metres per file unit */
+    sb_positive positive; /* direction in which values are positive */
+    double datum;         /* m, added to the heights */
+    double x, y;          /* m, translation */
+} sb_offshore_grid;
+
+/* The depth-averaged model. A scene that has one has no particles. */
+typedef struct sb_offshore_settings {
+    bool present;
+    double cell;                       /* m */
+    double x_min, y_min, x_max, y_max; /* m, of the grid */
+    size_t terrain_count;              /* 0: the bodies are the terrain */
+    sb_offshore_grid *terrain;         /* later ones replace earlier ones where they have heights */
+    double level;                      /* m, still water */
+    double manning;                    /* s/m^(1/3) */
+    bool dispersion;
+    double threshold; /* m, depth or rise that counts in the maps */
+    bool has_uplift;
+    sb_offshore_grid uplift; /* m, added to the still surface at the start */
+    sb_initial_wave wave;
+} sb_offshore_settings;
 
 typedef struct sb_camera_key {
     double time;
@@ -261,14 +341,16 @@ typedef struct sb_scene {
     char *path; /* of the scene file, for messages */
     char *title;
     int dimensions;    /* 2 or 3 */
-    double resolution; /* m, rest inter-particle distance (delta r) */
+    double resolution; /* m, rest inter-particle distance (delta r); without particles the cell of offshore */
     double duration;   /* s */
     sb_fluid_properties fluid;
     sb_domain domain;
+    sb_offshore_settings offshore;
     sb_sea sea;
     size_t box_count;
     sb_fluid_box *boxes;
     sb_initial_wave wave;
+    sb_given_sea given;
     sb_numerics numerics;
     size_t body_count;
     sb_body *bodies;
@@ -281,11 +363,29 @@ typedef struct sb_scene {
     sb_output_settings output;
 } sb_scene;
 
+/* Whether water of a given sea comes in and goes out through a side. */
+static inline bool sb_scene_sea_side(const sb_scene *scene, int side)
+{
+    return scene->domain.side[side] == SB_SIDE_SEA && !(scene->dimensions == 2 && side / 2 == 1);
+}
+
+/* Whether the source of a given sea is that of a side; otherwise the side has still water, if it is of kind sea. */
+static inline bool sb_scene_given_side(const sb_scene *scene, int side)
+{
+    return sb_scene_sea_side(scene, side) && scene->given.source != SB_GIVEN_NONE &&
+           scene->given.side[side] == SB_GIVEN_HERE;
+}
+
 /* Whether the domain is periodic along an axis (0, 1, 2). In 2D it is never periodic along y. */
 static inline bool sb_scene_repeats(const sb_scene *scene, int axis)
 {
     return scene->domain.side[2 * axis] == SB_SIDE_PERIODIC && !(scene->dimensions == 2 && axis == 1);
 }
+
+/* Index of the gauge of that name; gauge_count if there is none. */
+size_t sb_scene_gauge(const sb_scene *scene, const char *name);
+/* Distance of gauge i of a set from its first gauge, along the line to the last one, m. */
+double sb_reflection_place(const sb_scene *scene, const sb_reflection_set *set, size_t i);
 
 /* The sides' names in a scene: "x_min" and so on. */
 extern const char *const sb_side_names[SB_SIDES];

@@ -71,6 +71,14 @@ static bool meets_domain(const sb_scene *scene, double ax, double ay, double bx,
     return !disjoint(ax, bx, d->min.x, d->max.x) && (scene->dimensions == 2 || !disjoint(ay, by, d->min.y, d->max.y));
 }
 
+enum { RECORDED = 1 };
+
+static unsigned plane_variant(const void *item, const sb_yaml *map)
+{
+    (void)map;
+    return ((const sb_flow_plane *)item)->record ? RECORDED : 0;
+}
+
 /* clang-format off */
 static const sb_key plane_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_flow_plane, name), .flags = SB_KEY_REQUIRED,
@@ -84,8 +92,37 @@ static const sb_key plane_keys[] = {
      SB_KEY_ANY, .derived = "z of domain.min", .doc = "Lower edge of the plane."},
     {.name = "z_max", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_flow_plane, z_max), .unit = "m",
      SB_KEY_ANY, .derived = "z of domain.max", .doc = "Upper edge of the plane."},
+    {.name = "record", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_flow_plane, record), .fallback = "false",
+     .doc = "Whether surface and velocities over depth along the plane are written to `record.csv`, for `sea.source: "
+            "record`."},
+    {.name = "record_interval", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_flow_plane, record_interval), .unit = "s",
+     SB_KEY_POSITIVE, .applies = RECORDED, .only = "a plane that is recorded", .derived = "measure.interval",
+     .doc = "Time between rows of the record, a multiple of measure.interval."},
+    {.name = "record_spacing", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_flow_plane, record_spacing), .unit = "m",
+     SB_KEY_POSITIVE, .applies = RECORDED, .only = "a plane that is recorded", .derived = "4 resolution",
+     .doc = "Distance of the record's points along the plane; 2D has one point."},
 };
 /* clang-format on */
+
+/* Rows of a record lie on rows of the other tables. */
+static sb_status finish_record(sb_reader *reader, const sb_yaml *map, sb_flow_plane *plane)
+{
+    const sb_scene *scene = reader->scene;
+    const double interval = scene->measure.interval, most = 10000;
+    if (!sb_yaml_child(map, "record_interval")) plane->record_interval = interval;
+    if (!sb_yaml_child(map, "record_spacing")) plane->record_spacing = 4 * scene->resolution;
+    const double ratio = plane->record_interval / interval;
+    if (!(ratio > 0.5 && fabs(ratio - round(ratio)) < 1e-6 * ratio))
+        return sb_reader_fail(reader, map, "record_interval",
+                              "%g s is not a multiple of measure.interval, expected %g s "
+                              "or a multiple",
+                              plane->record_interval, interval);
+    const double points = hypot(plane->bx - plane->ax, plane->by - plane->ay) / plane->record_spacing;
+    if (!(points <= most))
+        return sb_reader_fail(reader, map, "record_spacing", "%g m makes %.0f points, expected at most %g",
+                              plane->record_spacing, points, most);
+    return SB_OK;
+}
 
 /* In 2D a plane is one metre wide in y, so that volumes are per metre. Only its x is used. */
 static void flatten_plane(const sb_yaml *map, sb_flow_plane *plane)
@@ -113,11 +150,12 @@ static sb_status finish_plane(sb_reader *reader, const sb_yaml *map, void *item)
         return sb_reader_fail(reader, map, "to", "is the same point as from, expected a different point");
     if (disjoint(plane->z_min, plane->z_max, scene->domain.min.z, scene->domain.max.z))
         return refuse_outside(reader, map, sb_yaml_child(map, "z_min") ? "z_min" : "z_max");
-    return meets_domain(scene, plane->ax, plane->ay, plane->bx, plane->by) ? SB_OK
-                                                                           : refuse_outside(reader, map, "from");
+    if (!meets_domain(scene, plane->ax, plane->ay, plane->bx, plane->by)) return refuse_outside(reader, map, "from");
+    return plane->record ? finish_record(reader, map, plane) : SB_OK;
 }
 
-static const sb_table plane_table = {SB_KEY_ROWS(plane_keys), .size = sizeof(sb_flow_plane), .finish = finish_plane};
+static const sb_table plane_table = {SB_KEY_ROWS(plane_keys), .size = sizeof(sb_flow_plane), .variant = plane_variant,
+                                     .finish = finish_plane};
 
 /* clang-format off */
 static const sb_key runup_keys[] = {
@@ -223,6 +261,9 @@ static const sb_key measure_keys[] = {
      SB_KEY_ITEMS(sb_measure_settings, runups, runup_count), .table = &runup_table,
      .doc = "Lines along which run-up and front are measured, of the water that is connected with the water at the "
             "line's first end. Other water on the line is measured separately."},
+    {.name = "reflections", .type = SB_KEY_LIST,
+     SB_KEY_ITEMS(sb_measure_settings, reflections, reflection_count), .table = &sb_reflection_table,
+     .doc = "Sets of gauges from which incident and reflected waves are found."},
     {.name = "map", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_measure_settings, map), .table = &map_table,
      .applies = MAP, .only = "maps", .derived = "no maps",
      .doc = "Maps of greatest depth, speed, momentum flux and of arrival time on a horizontal "

@@ -4,7 +4,7 @@
 
 const char *const sb_side_names[SB_SIDES] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
-static const char *const side_kind_names[] = {"wall", "open", "periodic", NULL};
+static const char *const side_kind_names[] = {"wall", "open", "periodic", "sea", NULL};
 
 #define SIDE(index, side, fallback_, doc_)                                                                             \
     {                                                                                                                  \
@@ -28,6 +28,9 @@ static sb_status finish_sides(sb_reader *reader, const sb_yaml *map, void *item)
     const sb_side_kind *side = item;
     for (size_t i = 0; i < SB_SIDES; i++) {
         const size_t other = i ^ 1;
+        if (side[i] == SB_SIDE_SEA && (i == SB_Z_MIN || i == SB_Z_MAX))
+            return sb_reader_fail(reader, map, side_keys[i].name,
+                                  "sea, but water comes in through vertical sides only, expected wall or open");
         if (side[i] != SB_SIDE_PERIODIC || (reader->scene->dimensions == 2 && (i == SB_Y_MIN || i == SB_Y_MAX)))
             continue;
         if (i == SB_Z_MIN || i == SB_Z_MAX)
@@ -51,7 +54,7 @@ static const sb_key domain_keys[] = {
     {.name = "max", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_domain, max), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED, .doc = "Corner with the largest coordinates."},
     {.name = "sides", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_domain, side), .table = &side_table,
-     .doc = "Type of each side of the domain: `wall`, `open` or `periodic`; see below."},
+     .doc = "Type of each side of the domain: `wall`, `open`, `periodic` or `sea`; see below."},
 };
 /* clang-format on */
 
@@ -70,6 +73,7 @@ static sb_status finish_domain(sb_reader *reader, const sb_yaml *map, void *item
             return sb_reader_fail(reader, map, "max", "%c is not above that of domain.min, expected min < max",
                                   "xyz"[i]);
         /* Cell numbers of the neighbour search have 21 bits per axis. */
+        if (!(spacing > 0)) continue; /* a scene without particles */
         if (extent[i] / scene->resolution > 1e6)
             return sb_reader_fail(reader, map, "max",
                                   "%g m in %c is %.3g times the resolution of %g m, expected at "
@@ -103,6 +107,18 @@ static const sb_key fluid_keys[] = {
 
 static const sb_table fluid_table = {SB_KEY_ROWS(fluid_keys)};
 
+enum { PARTICLES = 1, OFFSHORE = 2, GIVEN = 4 };
+
+static unsigned scene_variant(const void *item, const sb_yaml *map)
+{
+    const bool offshore = map ? sb_yaml_child(map, "offshore") != NULL : ((const sb_scene *)item)->offshore.present;
+    const bool given =
+        map ? sb_yaml_child(map, "sea") != NULL : ((const sb_scene *)item)->given.source != SB_GIVEN_NONE;
+    return (offshore ? OFFSHORE : PARTICLES) | (given ? GIVEN : 0);
+}
+
+#define WITH_PARTICLES .applies = PARTICLES, .only = "a scene without offshore"
+
 /* clang-format off */
 static const sb_key scene_keys[] = {
     {.name = "title", .type = SB_KEY_TEXT, SB_KEY_AT(sb_scene, title), .fallback = "\"\"",
@@ -111,7 +127,7 @@ static const sb_key scene_keys[] = {
      .max = 3, .fallback = "3",
      .doc = "Number of dimensions: 3, or 2 for a vertical slice in x and z."},
     {.name = "resolution", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_scene, resolution), .unit = "m",
-     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
+     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, WITH_PARTICLES,
      .doc = "Particle spacing at rest. Smaller values resolve more detail and take longer."},
     {.name = "duration", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_scene, duration), .unit = "s",
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED | SB_KEY_FREE,
@@ -120,15 +136,21 @@ static const sb_key scene_keys[] = {
      .doc = "Properties of the fluid."},
     {.name = "domain", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, domain), .table = &domain_table,
      .flags = SB_KEY_REQUIRED, .doc = "The box that contains the simulation."},
+    {.name = "offshore", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, offshore), .table = &sb_offshore_table,
+     .applies = OFFSHORE, .derived = "none", .only = "depth-averaged water",
+     .doc = "Depth-averaged water on a grid, without particles; see [the depth-averaged model](offshore.md)."},
     {.name = "numerics", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, numerics),
      .table = &sb_numerics_table,
      .doc = "Numerical parameters; a preset sets the ones that are not given."},
     {.name = "water", .type = SB_KEY_BLOCK, .offset = 0, .table = &sb_water_table,
-     .flags = SB_KEY_REQUIRED, .doc = "The water at the start."},
+     .flags = SB_KEY_REQUIRED, WITH_PARTICLES, .doc = "The water at the start."},
+    {.name = "sea", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, given), .table = &sb_given_table,
+     .applies = GIVEN, .only = "given water", .derived = "still water",
+     .doc = "Water that is given at the sides of kind `sea`; see [open sea](open-sea.md)."},
     {.name = "bodies", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_scene, bodies, body_count),
      .table = &sb_body_table, .doc = "Solids: terrain, buildings, paddles."},
     {.name = "wavemakers", .type = SB_KEY_LIST,
-     SB_KEY_ITEMS(sb_scene, wavemakers, wavemaker_count), .table = &sb_wavemaker_table,
+     SB_KEY_ITEMS(sb_scene, wavemakers, wavemaker_count), .table = &sb_wavemaker_table, WITH_PARTICLES,
      .doc = "Laws by which bodies move."},
     {.name = "measure", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, measure),
      .table = &sb_measure_table, .doc = "Measurements, and their interval."},
@@ -143,10 +165,33 @@ static const sb_key scene_keys[] = {
 };
 /* clang-format on */
 
+/* Given water needs particles, and a side. */
+static sb_status check_sea(sb_reader *reader, const sb_yaml *map, const sb_scene *scene)
+{
+    bool any = false, given = false;
+    for (int side = 0; side < 4; side++) {
+        any = any || sb_scene_sea_side(scene, side);
+        given = given || sb_scene_given_side(scene, side);
+        if (scene->given.side[side] == SB_GIVEN_STILL && !sb_scene_sea_side(scene, side))
+            return sb_reader_fail(reader, map, "sea", "sides.%s: still, but domain.sides.%s is not sea, expected sea",
+                                  sb_side_names[side], sb_side_names[side]);
+    }
+    if (any && scene->offshore.present)
+        return sb_reader_fail(reader, map, "domain",
+                              "sides: a side of kind sea needs particles, and a scene with offshore has none, expected "
+                              "wall, open or periodic");
+    if (given || scene->given.source == SB_GIVEN_NONE) return SB_OK;
+    return sb_reader_fail(reader, map, "sea",
+                          "the given water has no side to come in through, expected domain.sides with a side of kind "
+                          "sea, such as {x_min: sea}, that is not still");
+}
+
 static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_scene *scene = item;
     if (scene->control.enabled) scene->stream.enabled = true; /* it has the run's id and sends the replies */
+    sb_status status = check_sea(reader, map, scene);
+    if (status != SB_OK || scene->offshore.present) return status;
     sb_vec3 size = sb_sub(scene->domain.max, scene->domain.min);
     double least = size.x < size.z ? size.x : size.z;
     if (scene->dimensions == 3 && size.y < least) least = size.y;
@@ -159,4 +204,5 @@ static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)
     return SB_OK;
 }
 
-const sb_table sb_scene_table = {SB_KEY_ROWS(scene_keys), .size = sizeof(sb_scene), .finish = finish_scene};
+const sb_table sb_scene_table = {SB_KEY_ROWS(scene_keys), .size = sizeof(sb_scene), .variant = scene_variant,
+                                 .finish = finish_scene};

@@ -59,7 +59,7 @@ static sb_status finish_box(sb_reader *reader, const sb_yaml *map, void *item)
 
 static const sb_table box_table = {SB_KEY_ROWS(box_keys), .size = sizeof(sb_fluid_box), .finish = finish_box};
 
-static const char *const theory_names[] = {"third-order", "boussinesq", NULL};
+static const char *const theory_names[] = {"third-order", "boussinesq", "serre", NULL};
 static const char *const wave_names[] = {"none", "solitary", "standing", NULL};
 enum { SOLITARY = 1 << SB_INITIAL_SOLITARY, STANDING = 1 << SB_INITIAL_STANDING };
 
@@ -95,8 +95,9 @@ static const sb_key wave_keys[] = {
     {.name = "theory", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_initial_wave, theory), .words = theory_names,
      .fallback = "third-order", .applies = SOLITARY, .only = "kind solitary",
      .doc = "Order of the theory in height over depth: `third-order`, valid to 0.4, or "
-            "`boussinesq`, first order, as many experiments are defined. High `boussinesq` waves "
-            "lose water at their tail for a hundred depths."},
+            "`boussinesq`, first order, as many experiments are defined; or `serre`, exact for `offshore` "
+            "with dispersion, whatever the height. High `boussinesq` waves lose water at their tail for a "
+            "hundred depths."},
 };
 /* clang-format on */
 
@@ -124,8 +125,8 @@ static sb_status finish_wave(sb_reader *reader, const sb_yaml *map, void *item)
     return SB_OK;
 }
 
-static const sb_table wave_table = {SB_KEY_ROWS(wave_keys), .size = sizeof(sb_initial_wave), .variant = wave_variant,
-                                    .finish = finish_wave};
+const sb_table sb_wave_table = {SB_KEY_ROWS(wave_keys), .size = sizeof(sb_initial_wave), .variant = wave_variant,
+                                .finish = finish_wave};
 
 enum { SEA = 1 };
 
@@ -146,7 +147,7 @@ static const sb_key water_keys[] = {
             "this point."},
     {.name = "boxes", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_scene, boxes, box_count),
      .table = &box_table, .doc = "Boxes of water, each with its own level."},
-    {.name = "wave", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, wave), .table = &wave_table,
+    {.name = "wave", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, wave), .table = &sb_wave_table,
      .doc = "Wave at t = 0: surface and velocities by wave theory."},
 };
 /* clang-format on */

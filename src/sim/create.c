@@ -5,6 +5,7 @@
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
 #include "sim/report/report.h"
+#include "sim/sea/strip.h"
 #include "sim/search/sort.h"
 #include "sim/step/stages.h"
 #include "sim/terms/density_correction.h"
@@ -46,6 +47,8 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
         .wall_shear = shear,
         .wall_drag = shear || n->wall_friction > 0,
         .images = n->walls == SB_WALLS_IMAGES,
+        .sea = sb_scene_sea_side(scene, 0) || sb_scene_sea_side(scene, 1) || sb_scene_sea_side(scene, 2) ||
+               sb_scene_sea_side(scene, 3),
         .settling = settling,
         .start_velocity = settling && starts_in_motion(model),
         .direction = solver->needs_direction,
@@ -68,6 +71,7 @@ static void fill_particles(sb_sim *sim)
     const sb_model *model = sim->model;
     const size_t n = model->fluid_count;
     sim->state.n = n;
+    sim->state.next_id = (uint32_t)n;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
         sb_vec3 v = model->fluid_velocity[i];
@@ -103,6 +107,7 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
     }
     if (status == SB_OK && allocate(made) != 0) status = sb_fail_memory(error, "fluid particles");
     if (status == SB_OK) status = sb_walls_create(made, error);
+    if (status == SB_OK) status = sb_strip_create(made, error);
     if (status != SB_OK) {
         sb_sim_destroy(made);
         return status;
@@ -137,6 +142,7 @@ sb_status sb_sim_find_crowding(const sb_scene *scene, const sb_model *model, sb_
         found->places = sb_mirrors_crowded(sim, &found->first);
     }
     sb_walls_destroy(sim);
+    sb_strip_destroy(sim);
     sb_free(sim);
     return status;
 }
@@ -175,6 +181,11 @@ const sb_ledger *sb_sim_ledger(const sb_sim *sim)
     return &sim->state.ledger;
 }
 
+const sb_crossing *sb_sim_crossing(const sb_sim *sim)
+{
+    return &sim->state.crossing;
+}
+
 sb_vec3 sb_sim_body_displacement(const sb_sim *sim, size_t body)
 {
     uint32_t m = sim->walls.moving_of_body[body];
@@ -189,6 +200,7 @@ size_t sb_sim_bytes(const sb_sim *sim)
                    sim->work.cell_sum_capacity * sizeof *sim->work.cell_sum + sb_cells_bytes(&sim->ghosts.cells);
     bytes += sim->ghosts.of_capacity * 4 + (sim->ghosts.words_capacity + sim->ghosts.other_capacity) * 8;
     bytes += sim->work.pairs.capacity * sizeof *sim->work.pairs.four + sim->work.wall_pairs.capacity * 8;
+    bytes += sb_strip_bytes(sim);
     bytes += sim->groups.capacity * sizeof *sim->groups.group + sim->groups.room * sizeof *sim->groups.run;
     bytes += sim->groups.images_room * sizeof *sim->groups.image + sim->groups.planes_room * sizeof *sim->groups.plane;
     bytes += sim->work.edge_pairs.capacity * sizeof *sim->work.edge_pairs.pair + sb_mirrors_bytes(sim);

@@ -83,6 +83,7 @@ sb_vec3 sb_sim_body_displacement(const sb_sim *sim, size_t body);
 sb_energy sb_sim_energy(const sb_sim *sim);
 /* Since t = 0. */
 const sb_ledger *sb_sim_ledger(const sb_sim *sim);
+const sb_crossing *sb_sim_crossing(const sb_sim *sim);
 
 const sb_departures *sb_sim_departures(const sb_sim *sim);
 

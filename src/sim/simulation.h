@@ -22,6 +22,7 @@ enum {
 
 struct sb_passes;   /* sim/passes/passes.h */
 struct sb_pushes;   /* sim/walls/pushes.h */
+struct sb_strip;    /* sim/sea/strip.h */
 struct sb_exchange; /* sim/exchange/exchange.h */
 
 struct sb_sim {
@@ -35,6 +36,7 @@ struct sb_sim {
     const struct sb_exchange *exchange; /* with other domains */
 
     sb_state state;
+    struct sb_strip *strip;       /* of given water; NULL: no side is a sea */
     const sb_step_policy *policy; /* of the present step */
     sb_walls walls;
 

@@ -13,23 +13,25 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char measured[] = "dimensions: 2\n"
-                               "resolution: 0.05\n"
-                               "duration: 0.6\n"
-                               "domain: {min: [0, 0], max: [3, 1]}\n"
-                               "water: {boxes: [{min: [0.3, 0], max: [1.4, 0.5]}]}\n"
-                               "bodies:\n"
-                               "  - {name: paddle, shape: box, min: [0, 0], max: [0.28, 0.9]}\n"
-                               "  - {name: step, shape: box, min: [1.5, 0], max: [1.8, 0.2]}\n"
-                               "wavemakers: [{name: w, body: paddle, kind: stroke, stroke: 0.2, speed: 0.5}]\n"
-                               "measure:\n"
-                               "  interval: 0.03\n"
-                               "  gauges: [{name: wet, x: 0.8}, {name: dry, x: 2.8}]\n"
-                               "  probes: [{name: deep, at: [0.8, 0.2]}]\n"
-                               "  planes: [{name: lip, from: [1.45]}]\n"
-                               "  runups: [{name: floor, from: [0.3], to: [2.9]}]\n"
-                               "  map: {}\n"
-                               "output: {particle_interval: 0.1, plots: false}\n";
+static const char measured[] =
+    "dimensions: 2\n"
+    "resolution: 0.05\n"
+    "duration: 0.6\n"
+    "domain: {min: [0, 0], max: [3, 1]}\n"
+    "water: {boxes: [{min: [0.3, 0], max: [1.4, 0.5]}]}\n"
+    "bodies:\n"
+    "  - {name: paddle, shape: box, min: [0, 0], max: [0.28, 0.9]}\n"
+    "  - {name: step, shape: box, min: [1.5, 0], max: [1.8, 0.2]}\n"
+    "wavemakers: [{name: w, body: paddle, kind: stroke, stroke: 0.2, speed: 0.5}]\n"
+    "measure:\n"
+    "  interval: 0.03\n"
+    "  gauges: [{name: wet, x: 0.8}, {name: near, x: 0.9}, {name: dry, x: 2.8}]\n"
+    "  reflections: [{name: r, gauges: [wet, near, dry], period: 0.2, depth: 0.5, harmonics: 1, window: 0.2}]\n"
+    "  probes: [{name: deep, at: [0.8, 0.2]}]\n"
+    "  planes: [{name: lip, from: [1.45], record: true}]\n"
+    "  runups: [{name: floor, from: [0.3], to: [2.9]}]\n"
+    "  map: {}\n"
+    "output: {particle_interval: 0.1, plots: false}\n";
 
 int pair_setup(void **state)
 {
@@ -44,6 +46,8 @@ const char *const pair_tables[] = {"forces.csv",
                                    "energy.csv",
                                    "overtopping.csv",
                                    "runup.csv",
+                                   "reflections.csv",
+                                   "record.csv",
                                    "maps/max_depth.asc",
                                    "maps/max_speed.asc",
                                    "maps/arrival_time.asc",

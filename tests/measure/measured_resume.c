@@ -9,10 +9,15 @@
 
 enum { BEFORE = 60, AFTER = 60 };
 
-static const sb_gauge gauges[] = {{"wet", 0.33, 0}, {"dry", 1.7, 0}};
+static const sb_gauge gauges[] = {{"wet", 0.33, 0}, {"far", 0.61, 0}, {"dry", 1.7, 0}};
 static const sb_probe probes[] = {{"inside", {0.5, 0, 0.3}, 0}, {"wall", {2, 0, 0.1}, 0}};
-static const sb_flow_plane planes[] = {{"plane", 1.1, 0, 1.1, 1, -1, 4}, {"lip", 1.3, 0, 1.3, 1, 0.2, 4}};
+static const sb_flow_plane planes[] = {{"plane", 1.1, 0, 1.1, 1, -1, 4, true, 0.026, 1},
+                                       {"lip", 1.3, 0, 1.3, 1, 0.2, 4, false, 0, 0}};
 static const sb_runup_line lines[] = {{"floor", 0, 0, 2, 0}};
+
+static const sb_gauge_name split_names[] = {{"wet"}, {"far"}, {"dry"}};
+static const sb_reflection_set splits[] = {{"waves", 3, (sb_gauge_name *)split_names, 0.11, 2, 0.3, 0.02, 0.2},
+                                           {"whole", 3, (sb_gauge_name *)split_names, 0.3, 1, 0.3, 0, 9}};
 
 /* A water column that has begun to collapse. */
 static void make(tank *t)
@@ -20,7 +25,7 @@ static void make(tank *t)
     tank_make(t, 2, 0.05, sb_vec(2, 0, 1.5), 1, 0.8, 0.05);
     t->scene.measure = (sb_measure_settings){
         .interval = 0.013,
-        .gauge_count = 2,
+        .gauge_count = 3,
         .gauges = (sb_gauge *)gauges,
         .probe_count = 2,
         .probes = (sb_probe *)probes,
@@ -28,6 +33,8 @@ static void make(tank *t)
         .planes = (sb_flow_plane *)planes,
         .runup_count = 1,
         .runups = (sb_runup_line *)lines,
+        .reflection_count = 2,
+        .reflections = (sb_reflection_set *)splits,
         .map = {.present = true, .x_max = 2, .cell = 0.1, .threshold = 0.05},
     };
 }
@@ -41,6 +48,8 @@ static uint64_t hash_records(uint64_t hash, const sb_measure_records *r, size_t 
     hash = sb_hash(hash, r->flows, r->flow_count * sizeof *r->flows);
     hash = sb_hash(hash, r->runups, r->runup_count * sizeof *r->runups);
     *flows += r->flow_count;
+    hash = sb_hash(hash, r->waters, r->water_count * sizeof *r->waters);
+    hash = sb_hash(hash, r->reflections, r->reflection_count * sizeof *r->reflections);
     return sb_hash(hash, r->energies, r->energy_count * sizeof *r->energies);
 }
 
@@ -58,8 +67,12 @@ static uint64_t steps(sb_sim *sim, sb_measure *measure, int count, size_t *flows
     hash = sb_hash(hash, map->speed, bytes);
     hash = sb_hash(hash, map->flux, bytes);
     hash = sb_hash(hash, map->arrival, bytes);
-    const double missed[] = {sb_measure_gauge_missed(measure, 0), sb_measure_gauge_missed(measure, 1)};
+    const double missed[] = {sb_measure_gauge_missed(measure, 0), sb_measure_gauge_missed(measure, 2)};
     hash = sb_hash(hash, missed, sizeof missed);
+    size_t row_count;
+    const sb_reflection_record *rows;
+    assert_int_equal(sb_measure_reflections(measure, &rows, &row_count, NULL), SB_OK);
+    hash = sb_hash(hash, rows, row_count * sizeof *rows);
     const sb_body_record *body = &sb_measure_bodies(measure)[0];
     const double totals[] = {body->peak,     body->peak_time, body->impulse.x,
                              body->moment.y, body->torque.y,  body->layers};

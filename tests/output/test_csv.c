@@ -16,8 +16,10 @@
 static sb_model_body bodies[2] = {{.name = "reactor1", .report = true}, {.name = "a \"b\", c", .report = true}};
 static sb_gauge gauges[1] = {{"offshore", 1, 2}};
 static sb_probe probes[1] = {{"inlet", {0, 0, 0}, 0}};
-static sb_flow_plane planes[1] = {{"quay", 0, 0, 0, 1, 0, 1}};
+static sb_flow_plane planes[1] = {{"quay", 0, 0, 0, 1, 0, 1, true, 0.1, 1}};
 static sb_runup_line lines[1] = {{"beach", 0, 0, 1, 0}};
+
+static sb_reflection_set sets[1] = {{.name = "array"}};
 
 static sb_scene make_scene(int dimensions, bool all)
 {
@@ -30,7 +32,9 @@ static sb_scene make_scene(int dimensions, bool all)
                                           .plane_count = all,
                                           .planes = planes,
                                           .runup_count = all,
-                                          .runups = lines};
+                                          .runups = lines,
+                                          .reflection_count = all,
+                                          .reflections = sets};
     return scene;
 }
 
@@ -56,11 +60,15 @@ static void headers_are_exact(void **state)
     expect("gauges.csv", "time_s,gauge,eta_m,z_m\n");
     expect("probes.csv", "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa\n");
     expect("overtopping.csv", "time_s,plane,volume_m3,flux_m3_s\n");
+    expect("record.csv", SB_RECORD_HEADER "\n");
     expect("runup.csv", "time_s,line,x_m,y_m,z_m,front_m,apart_m\n");
+    expect("reflections.csv",
+           "time_s,set,from_s,harmonic,period_s,wavelength_m,incident_m,reflected_m,coefficient,misfit_m,"
+           "separation\n");
     expect("energy.csv", "time_s,kinetic_J,potential_J,mass_kg,momentum_x_kg_m_s,"
                          "momentum_y_kg_m_s,momentum_z_kg_m_s,bodies_J,viscosity_J,"
                          "wall_friction_J,pressure_solve_J,contact_J,time_integration_J,"
-                         "left_domain_J,momentum_imbalance,packing_stress_J\n");
+                         "left_domain_J,momentum_imbalance,packing_stress_J,sea_J\n");
     assert_int_equal(sb_csv_close(csv, NULL), SB_OK);
     scene = make_scene(2, false);
     unlink(in_folder("runup.csv"));
@@ -87,8 +95,16 @@ static void rows_are_flushed_at_once(void **state)
     const sb_flow_record flows[] = {{0, 0.1, 12.5, 3}};
     const sb_runup_record runups[] = {{0, 0.1, {1, 2, 3}, 4, 0.5}};
     const sb_energy_record energies[] = {
-        {0.10123, 5, 6.00000000001, 7, {8, 9, 10}, {11, -12, -13, -14, -15, 16, -17, 18}, 1e-7}};
-    const sb_measure_records records = {2, 2, 2, 1, 1, 1, forces, levels, points, flows, runups, energies};
+        {0.10123, 5, 6.00000000001, 7, {8, 9, 10}, {11, -12, -13, -14, -15, 16, -17, 18, 19}, 1e-7}};
+    const sb_reflection_record splits[] = {{0, 2, 5, 10, 0.5, 3, 0.25, 0.125, 0.01, 0.75},
+                                           {0, 3, 5, 10, 0.2, 1, nan, nan, nan, 0}};
+    sb_water_record waters[] = {{0, 0.1, 0, 0.25, 1.5, -2, {{0, 0, 0}}}, {0, 0.1, 0, 0.75, nan, -2, {{0, 0, 0}}}};
+    for (int j = 0; j < SB_RECORD_LAYERS; j++) {
+        waters[0].velocity[j] = sb_vec(1 + j, -1 - j, 0.5);
+        waters[1].velocity[j] = sb_vec(nan, nan, nan);
+    }
+    const sb_measure_records records = {2,      2,     2,      1,        1, 1,      forces, levels,
+                                        points, flows, runups, energies, 2, splits, 2,      waters};
     assert_int_equal(sb_csv_open(folder, &scene, &model, &csv, NULL), SB_OK);
     assert_int_equal(sb_csv_write(csv, &records, NULL), SB_OK);
     char *text = text_of("forces.csv"); /* before closing */
@@ -100,9 +116,19 @@ static void rows_are_flushed_at_once(void **state)
                          "0.2,inlet,,,,\n");
     expect("overtopping.csv", "time_s,plane,volume_m3,flux_m3_s\n0.1,quay,12.5,3\n");
     expect("runup.csv", "time_s,line,x_m,y_m,z_m,front_m,apart_m\n0.1,beach,1,2,3,4,0.5\n");
+    text = text_of("reflections.csv");
+    assert_string_equal(strchr(text, '\n') + 1,
+                        "10,array,5,2,0.5,3,0.25,0.125,0.5,0.01,0.75\n10,array,5,3,0.2,1,,,,,0\n");
+    sb_free(text);
+    text = text_of("record.csv");
+    assert_string_equal(
+        strchr(text, '\n') + 1,
+        "0.1,quay,0,0.25,1.5,-2,1,2,3,4,5,6,7,8,-1,-2,-3,-4,-5,-6,-7,-8,0.5,0.5,0.5,0.5,0.5,0.5,0.5,0.5\n"
+        "0.1,quay,0,0.75,,-2,,,,,,,,,,,,,,,,,,,,,,,,\n");
+    sb_free(text);
     text = text_of("energy.csv");
     assert_string_equal(strchr(text, '\n') + 1,
-                        "0.10123,5,6.00000000001,7,8,9,10,11,-12,-13,-14,-15,16,-17,1e-07,18\n");
+                        "0.10123,5,6.00000000001,7,8,9,10,11,-12,-13,-14,-15,16,-17,1e-07,18,19\n");
     sb_free(text);
     assert_int_equal(sb_csv_close(csv, NULL), SB_OK);
 }

@@ -68,7 +68,7 @@ static void write_maps(void)
     for (int j = 0; j < ROWS; j++)
         for (int i = 0; i < COLUMNS; i++)
             values[j * COLUMNS + i] = i > 100 + j / 10 ? NAN : (float)(38 - 0.3 * i + 0.05 * j);
-    const sb_map_record map = {COLUMNS, ROWS, 0, -575, 10, values, values, values, values};
+    const sb_map_record map = {COLUMNS, ROWS, 0, -575, 10, values, values, values, values, values};
     assert_int_equal(sb_maps_write(folder, &map, NULL), SB_OK);
 }
 
@@ -119,7 +119,7 @@ static void pictures_are_drawn(void **state)
     char *text = text_of("run.jsonl");
     if (strstr(text, "warning")) fail_msg("%s", text);
     sb_free(text);
-    assert_int_equal(drawn, 8);
+    assert_int_equal(drawn, 9);
     const char *const names[] = {"plots/forces.png", "plots/gauges.png",   "plots/probes.png",
                                  "plots/energy.png", "maps/max_depth.png", "maps/arrival_time.png"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) assert_true(is_png(names[i]));
@@ -139,7 +139,7 @@ static void dry_places_have_no_plot(void **state)
     fclose(table);
     sb_runlog *log;
     assert_int_equal(sb_runlog_open(in_folder("run.jsonl"), &log, NULL), SB_OK);
-    assert_int_equal(sb_plots_write(folder, &scene, log), 7);
+    assert_int_equal(sb_plots_write(folder, &scene, log), 8);
     assert_int_equal(sb_runlog_close(log, NULL), SB_OK);
     char *text = text_of("run.jsonl");
     if (strstr(text, "warning")) fail_msg("%s", text);

@@ -46,29 +46,12 @@ static sb_scene make_scene(void)
 static void summary_has_the_documented_keys(void **state)
 {
     (void)state;
-    const char *const keys[] = {"wall_s",
-                                "simulated_s",
-                                "steps",
-                                "fluid_particles",
-                                "boundary_particles",
-                                "mean_iterations",
-                                "bytes_per_particle",
-                                "lost_particles",
-                                "bodies",
-                                "name",
-                                "peak_N",
-                                "peak_time_s",
-                                "impulse_Ns",
-                                "version",
-                                "preset",
-                                "stages",
-                                "energy_end",
-                                "energy_work",
-                                "contact_J",
-                                "packing_stress_J",
-                                "processor_seconds",
-                                "wall_setup_s",
-                                "wall_settling_s"};
+    const char *const keys[] = {
+        "wall_s",          "simulated_s",        "steps",          "fluid_particles", "boundary_particles",
+        "mean_iterations", "bytes_per_particle", "lost_particles", "bodies",          "name",
+        "peak_N",          "peak_time_s",        "impulse_Ns",     "version",         "preset",
+        "stages",          "energy_end",         "energy_work",    "contact_J",       "packing_stress_J",
+        "sea_J",           "processor_seconds",  "wall_setup_s",   "wall_settling_s"};
     sb_scene scene = make_scene();
     const sb_summary summary = {
         .scene = &scene,
@@ -242,7 +225,7 @@ static void grids_begin_with_the_northernmost_row(void **state)
 {
     (void)state;
     const float values[] = {1, 2, 3, 4, 5, NAN};
-    const sb_map_record map = {3, 2, 100, -50, 2.5, values, values, values, values};
+    const sb_map_record map = {3, 2, 100, -50, 2.5, values, values, values, values, values};
     assert_int_equal(sb_maps_write(folder, &map, NULL), SB_OK);
     const char *const names[] = {"maps/max_depth.asc", "maps/max_speed.asc", "maps/max_momentum_flux.asc",
                                  "maps/arrival_time.asc"};

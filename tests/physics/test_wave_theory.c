@@ -86,6 +86,17 @@ static void boussinesqs_wave(void **state)
     assert_true(b.volume < 1e-7 && b.through < 1e-7 && b.energy > 2 * third.energy);
 }
 
+/* Serre's wave [Serre 1953]: the same celerity, wider by sqrt(1 + e); it conserves volume. */
+static void serres_wave(void **state)
+{
+    (void)state;
+    const sb_solitary wave = {.height = 0.5, .depth = 1, .gravity = 9.81, .theory = SB_SOLITARY_SERRE};
+    assert_near(sb_solitary_celerity(&wave), sqrt(9.81 * 1.5), 1e-12);
+    assert_near(sb_solitary_elevation(&wave, acosh(sqrt(2)) / 0.5), 0.25, 1e-12); /* k^2 = 3 e / (4 (1 + e)) */
+    const violation b = violation_of(0.5, SB_SOLITARY_SERRE);
+    assert_true(b.volume < 1e-7 && b.through < 1e-7);
+}
+
 /* The energy error of a first-order wave is proportional to the square of its height. All errors of the third-order
    wave are proportional to the fourth power. */
 static void solitary_wave_conserves_volume_and_energy_to_third_order(void **state)
@@ -136,10 +147,15 @@ static void keulegan_damping(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(solitary_celerity), cmocka_unit_test(solitary_profile),
-        cmocka_unit_test(solitary_volume),   cmocka_unit_test(solitary_wave_conserves_volume_and_energy_to_third_order),
-        cmocka_unit_test(boussinesqs_wave),  cmocka_unit_test(solitary_bed_and_crest),
-        cmocka_unit_test(standing_wave),     cmocka_unit_test(keulegan_damping),
+        cmocka_unit_test(solitary_celerity),
+        cmocka_unit_test(solitary_profile),
+        cmocka_unit_test(solitary_volume),
+        cmocka_unit_test(solitary_wave_conserves_volume_and_energy_to_third_order),
+        cmocka_unit_test(boussinesqs_wave),
+        cmocka_unit_test(serres_wave),
+        cmocka_unit_test(solitary_bed_and_crest),
+        cmocka_unit_test(standing_wave),
+        cmocka_unit_test(keulegan_damping),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

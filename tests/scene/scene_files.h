@@ -11,6 +11,9 @@
 #define SCENE_HEAD                                                                                                     \
     "resolution: 0.1\nduration: 1\ndomain: {min: [0, 0, 0], max: [2, 1, 1]}\n"                                         \
     "water: {level: 0.5, seed: [1, 0.5, 0.2]}\n"
+#define SCENE_SEA                                                                                                      \
+    "resolution: 0.1\nduration: 1\ndomain: {min: [0, 0, 0], max: [2, 1, 1], sides: {x_min: sea}}\n"                    \
+    "water: {level: 0.5, seed: [1, 0.5, 0.2]}\n"
 #define SCENE_FLAT                                                                                                     \
     "dimensions: 2\nresolution: 0.1\nduration: 1\ndomain: {min: [0, 0], max: [2, 1]}\n"                                \
     "water: {level: 0.5, seed: [1, 0.2]}\n"

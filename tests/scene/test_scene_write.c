@@ -9,13 +9,15 @@ static const char everything[] =
     "title: \"Grüße \\u2028 \\\"quoted\\\" \\\\ \\t end\\u2029 \\U0001F30A\"\n"
     "resolution: 0.1234567890123456789\nduration: 1e-3\n"
     "fluid: {density: 1025, gravity: 9.80665, viscosity: 0}\n"
-    "domain: {min: [-1e5, -0.1, 0], max: [2, 1, 1], sides: {x_min: open, y_max: open}}\n"
+    "domain: {min: [-1e5, -0.1, 0], max: [2, 1, 1], sides: {x_min: open, y_min: sea, y_max: open}}\n"
     "numerics: {preset: paper, kernel: KERNEL, support: 2.7, seed: 18446744073709551615,\n"
     "  solver: chebyshev, time_step_max: 0.1, settle_steps: 7}\n"
     "water:\n  level: 0.3\n  seed: [1, 0.5, 0.2]\n  boxes:\n"
     "    - {min: [0, 0, 0], max: [1, 1, 1], level: 0.3, velocity: [0.1, 0.2, 0.3]}\n"
     "    - {min: [1, 0, 0], max: [2, 1, 0.7]}\n"
     "  wave: {kind: solitary, height: 0.1, depth: 0.3, position: 0.7, direction: -1}\n"
+    "sea: {source: theory, wave: components, depth: 0.3, start: -3.5, components:\n"
+    "  [{amplitude: 0.01, period: 2.3, direction: 30, phase: -7}, {amplitude: 0.02, period: 1}]}\n"
     "bodies:\n"
     "  - {name: null_, shape: mesh, file: FILE, up: y, scale: 0.3048, split: true,\n"
     "     rotate: [10, 20, 30], translate: [1, 2, 3]}\n"
@@ -29,9 +31,11 @@ static const char everything[] =
     "  - {name: w, body: b-1, kind: stroke, stroke: 1, speed: 0.1, direction: [1, 1, 1],\n"
     "     start: 0.1, after: return, return_time: 3}\n"
     "  - {name: v, body: c.d, kind: goring, height: 0.1, depth: 0.3, start: command}\n"
-    "measure:\n  interval: 0.001\n  gauges: [{name: g, x: 1, y: 0.5}]\n"
+    "measure:\n  interval: 0.001\n  gauges: [{name: g, x: 1, y: 0.5}, {name: h, x: 1.1, y: 0.6}, {name: i, x: 1.3, y: "
+    "0.8}]\n"
+    "  reflections: [{name: s, gauges: [g, {name: h}, i], period: 0.7, depth: 0.3}]\n"
     "  probes: [{name: p, at: [1, 0.5, 0.1], radius: 0.1}]\n"
-    "  planes: [{name: q, from: [1, 0], to: [1, 1], z_min: 0.1, z_max: 0.9}]\n"
+    "  planes: [{name: q, from: [1, 0], to: [1, 1], z_min: 0.1, z_max: 0.9, record: true, record_interval: 0.003}]\n"
     "  runups: [{name: r, from: [1, 0], to: [1, 1]}]\n"
     "  map: {min: [0, 0], max: [1, 1], cell: 0.3, threshold: 0.07}\n"
     "render:\n  interval: 0.1\n  speed_max: 3\n  video: false\n  cameras:\n"
@@ -52,6 +56,18 @@ static void same_text(char **a, char **b)
 {
     assert_int_equal(*a != NULL, *b != NULL);
     if (*a) assert_string_equal(*a, *b);
+}
+
+static void same_given(const sb_scene *a, const sb_scene *b)
+{
+    sb_given_sea one, other;
+    memcpy(&one, &a->given, sizeof one);
+    memcpy(&other, &b->given, sizeof other);
+    SAME_ITEMS(&one, &other, components, component_count);
+    same_text(&one.file, &other.file);
+    one.file = other.file = NULL;
+    one.components = other.components = NULL;
+    assert_memory_equal(&one, &other, sizeof one);
 }
 
 static void same_bodies(const sb_scene *a, const sb_scene *b)
@@ -99,6 +115,7 @@ static void same_scene(sb_scene *a, sb_scene *b)
     assert_memory_equal(&a->domain, &b->domain, sizeof a->domain);
     assert_memory_equal(&a->sea, &b->sea, sizeof a->sea);
     assert_memory_equal(&a->wave, &b->wave, sizeof a->wave);
+    same_given(a, b);
     assert_memory_equal(&a->numerics, &b->numerics, sizeof a->numerics);
     SAME_ITEMS(a, b, boxes, box_count);
     same_bodies(a, b);
@@ -108,6 +125,15 @@ static void same_scene(sb_scene *a, sb_scene *b)
     SAME_ITEMS(&a->measure, &b->measure, probes, probe_count);
     SAME_ITEMS(&a->measure, &b->measure, planes, plane_count);
     SAME_ITEMS(&a->measure, &b->measure, runups, runup_count);
+    assert_int_equal(a->measure.reflection_count, b->measure.reflection_count);
+    for (size_t i = 0; i < a->measure.reflection_count; i++) {
+        sb_reflection_set one, other;
+        memcpy(&one, &a->measure.reflections[i], sizeof one);
+        memcpy(&other, &b->measure.reflections[i], sizeof other);
+        SAME_ITEMS(&one, &other, gauges, gauge_count);
+        one.gauges = other.gauges = NULL;
+        assert_memory_equal(&one, &other, sizeof one);
+    }
     assert_memory_equal(&a->measure.map, &b->measure.map, sizeof a->measure.map);
     same_render(&a->render, &b->render);
     assert_int_equal(a->control.enabled, b->control.enabled);
@@ -185,6 +211,39 @@ static void test_everything(void **state)
     remove(mesh);
 }
 
+/* Each source of given water, with the defaults that depend on other keys. */
+static void test_given_water(void **state)
+{
+    (void)state;
+    static const char *const blocks[] = {
+        "source: none",
+        "source: theory, wave: solitary, height: 0.1, depth: 0.5, direction: 135, theory: boussinesq",
+        "source: theory, wave: regular, height: 0.05, period: 2, depth: 0.5, level: 0.4",
+        "source: table, file: FILE, units: ft, datum: -3",
+        "source: table, file: FILE",
+        "source: record, file: FILE, plane: p, start: -20"};
+    char file[256], path[256], block[600], text[1000];
+    scene_file("0 0 0\n", file);
+    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) {
+        const char *at = strstr(blocks[i], "FILE");
+        if (at)
+            snprintf(block, sizeof block, "%.*s%s%s", (int)(at - blocks[i]), blocks[i], file, at + 4);
+        else
+            snprintf(block, sizeof block, "%s", blocks[i]);
+        snprintf(text, sizeof text, SCENE_SEA "sea: {%s}\n", block);
+        scene_file(text, path);
+        round_trip(path);
+        remove(path);
+    }
+    sb_scene scene;
+    scene_must_read(SCENE_SEA "sea: {source: theory, wave: solitary, height: 0.1, depth: 0.5, direction: 135}\n", NULL,
+                    NULL, 0, &scene);
+    assert_near(scene.given.level, 0.5, 0);
+    assert_true(scene.given.origin[0] == 2 && scene.given.origin[1] == 0 && scene.given.ramp == 0);
+    sb_scene_free(&scene);
+    remove(file);
+}
+
 static void test_flat(void **state)
 {
     (void)state;
@@ -225,6 +284,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_scenes_of_the_project),
         cmocka_unit_test(test_everything),
+        cmocka_unit_test(test_given_water),
         cmocka_unit_test(test_flat),
         cmocka_unit_test(test_refused),
     };

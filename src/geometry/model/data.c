@@ -10,6 +10,7 @@ void sb_model_free(sb_model *model)
     if (!model) return;
     for (size_t i = 0; i < model->body_count; ++i) sb_mesh_free(&model->bodies[i].mesh);
     for (size_t i = 0; i < model->warning_count; ++i) sb_free(model->warnings[i]);
+    for (int side = 0; side < 4; side++) sb_free(model->sea[side].bed);
     sb_free(model->facets.facets);
     sb_free(model->facets.edges);
     sb_free(model->bodies);

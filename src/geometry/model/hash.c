@@ -21,5 +21,9 @@ uint64_t sb_model_hash(const sb_model *model)
         hash = sb_hash(hash, facts, sizeof facts);
         hash = sb_hash(hash, &body->moment_point, sizeof body->moment_point);
     }
+    for (int side = 0; side < 4; side++)
+        if (model->sea[side].along > 0)
+            hash =
+                sb_hash(hash, model->sea[side].bed, model->sea[side].along * model->sea[side].across * sizeof(double));
     return hash;
 }

@@ -16,6 +16,7 @@ sb_status sb_model_build_for(const sb_scene *scene, sb_model_need *need, sb_mode
     if (status == SB_OK) status = sb_model_space_create(&made, scene, &space, error);
     /* The sea comes first: if it escapes, the walls need not be sampled. */
     if (status == SB_OK) status = sb_model_fill(scene, &space, &made, error);
+    if (status == SB_OK) status = sb_model_sea_sides(scene, &space, &made, error);
     if (status == SB_OK) status = sb_model_sample(scene, &space, &made, error);
     if (status == SB_OK) status = sb_model_check_sides(scene, &space, &made, error);
     if (status == SB_OK) status = sb_model_check(scene, &space, &made, error);

@@ -25,12 +25,22 @@ typedef struct sb_model_body {
     sb_mesh mesh; /* scene coordinates at t = 0; empty for domain sides */
 } sb_model_body;
 
+/* The ground within `width` of a side through which a given sea comes in: cells of `step` inwards and `pitch` along the
+   side. The water of the strip next to the side, `strip` wide, is held to the given sea. */
+typedef struct sb_model_sea {
+    size_t across, along;             /* cells; 0: no such side */
+    double step, pitch, width, strip; /* m */
+    double *bed; /* m, z of the ground, along * across, the cells of one line inwards after each other */
+} sb_model_sea;
+
 typedef struct sb_model {
     sb_vec3 min, max; /* m, the domain; min is the origin of stored positions */
     int dimensions;
-    bool images;        /* walls reflect water */
-    double spacing;     /* m */
-    double still_depth; /* m, D: the largest still depth of water */
+    bool images;         /* walls reflect water */
+    double spacing;      /* m */
+    double still_depth;  /* m, D: the largest still depth of water */
+    double sea_depth;    /* m, the largest depth that a given sea reaches at its sides; 0: there is none */
+    sb_model_sea sea[4]; /* by side, from x_min to y_max */
     size_t fluid_count;
     sb_vec3 *fluid_position; /* m */
     sb_vec3 *fluid_velocity; /* m/s; NULL: freed, all zero */
@@ -47,11 +57,17 @@ typedef struct sb_model {
     char **warnings; /* one line each */
 } sb_model;
 
-/* Returns the speed of long waves sqrt(g D) in m/s, for a depth D of at least one spacing. */
+/* Returns the speed of long waves sqrt(g D) in m/s, for a depth D of at least one spacing. A given sea that rises
+   counts with its greatest depth. */
 static inline double sb_model_wave_speed(const sb_scene *scene, const sb_model *model)
 {
-    return sqrt(scene->fluid.gravity * fmax(model->still_depth, scene->resolution));
+    return sqrt(scene->fluid.gravity * fmax(fmax(model->still_depth, model->sea_depth), scene->resolution));
 }
+
+/* sea.c: half of the length (m) over which water of this depth is averaged inside of a strip of given water. */
+double sb_model_sea_reach(const sb_model *model, double depth);
+/* The place at these distances (m) from a side and along it, with z = 0. */
+sb_vec3 sb_model_sea_place(const sb_model *model, int side, double inwards, double along);
 
 /* Builds the model: imports the bodies, places the water and samples the boundary particles. model->warnings report
    what is too coarse or too thin for reliable results, and inputs that are probably mistakes. SB_BAD_INPUT for a

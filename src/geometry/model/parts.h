@@ -61,6 +61,9 @@ sb_status sb_model_warn_gaps(const sb_scene *scene, const sb_model_space *space,
    domain's floor where water is. */
 sb_status sb_model_warn_ground(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
+/* sea.c: finds the ground beside sides of kind sea. SB_BAD_INPUT if such a side is dry or has no room. */
+sb_status sb_model_sea_sides(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+
 /* Adds a warning for each open side at which water stands. */
 sb_status sb_model_warn_open(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 

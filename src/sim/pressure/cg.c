@@ -1,7 +1,6 @@
 /* Conjugate gradients with proportioning and gradient projection (MPRGP) for q >= 0, scaled by the
    diagonal D = -a_ii: minimises f(q) = -q.A q/2 + b.q, whose gradient is -e. */
 #include "sim/exchange/sums.h"
-#include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
 #include "sim/simulation.h"
 
@@ -140,7 +139,7 @@ static sb_status solve(sb_sim *sim, sb_error *error)
         judged = sb_pressure_judge(sim);
     }
     sb_pressure_load(sim, sim->work.unknown);
-    sim->passes->accelerate(sim);
+    sb_pressure_accelerate(sim);
     return SB_OK;
 }
 

@@ -2,6 +2,7 @@
 #include "sim/exchange/exchange.h"
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
+#include "sim/sea/strip.h"
 #include "sim/simulation.h"
 
 void sb_pressure_load(sb_sim *sim, const float *argument)
@@ -19,9 +20,15 @@ void sb_pressure_diverge(sb_sim *sim, float *out)
     sim->passes->diverge(sim, sim->work.acceleration, dt * dt, out);
 }
 
-void sb_pressure_product(sb_sim *sim, float *out)
+void sb_pressure_accelerate(sb_sim *sim)
 {
     sim->passes->accelerate(sim);
+    if (sim->strip) sb_strip_hold_acceleration(sim);
+}
+
+void sb_pressure_product(sb_sim *sim, float *out)
+{
+    sb_pressure_accelerate(sim);
     sb_refresh(sim, sim->work.acceleration);
     sb_pressure_diverge(sim, out);
 }

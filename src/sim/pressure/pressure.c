@@ -4,6 +4,7 @@
 
 #include "sim/exchange/sums.h"
 #include "sim/passes/passes.h"
+#include "sim/sea/strip.h"
 #include "sim/step/stages.h"
 
 #include <math.h>
@@ -70,6 +71,7 @@ static void set_initial_guess(sb_sim *sim)
         if (sim->work.pairs.count[i] == 0) q = -sim->work.source[i] / sim->work.diagonal[i];
         sim->work.unknown[i] = sim->work.diagonal[i] > 0 && q > 0 ? q : 0;
     }
+    if (sim->strip) sb_strip_set_unknown(sim);
 }
 
 static double tolerance(const sb_sim *sim)

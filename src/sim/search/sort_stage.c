@@ -16,6 +16,12 @@ typedef struct bounds {
     int64_t min[3], max[3];
 } bounds;
 
+/* Whether a particle that passes a side of this kind has left at once. */
+static bool lets_out(sb_side_kind kind)
+{
+    return kind == SB_SIDE_OPEN || kind == SB_SIDE_SEA;
+}
+
 static bounds domain_bounds(const sb_sim *sim)
 {
     bounds b;
@@ -24,13 +30,13 @@ static bounds domain_bounds(const sb_sim *sim)
     sb_record high = sb_space_record(&sim->space, domain->max);
     int64_t cell = (int64_t)1 << sim->space.shift;
     for (int axis = 0; axis < 3; axis++) {
-        b.min[axis] = (int64_t)low[axis] - (domain->side[2 * axis] == SB_SIDE_OPEN ? 0 : cell);
-        b.max[axis] = (int64_t)high[axis] + (domain->side[2 * axis + 1] == SB_SIDE_OPEN ? 0 : cell);
+        b.min[axis] = (int64_t)low[axis] - (lets_out(domain->side[2 * axis]) ? 0 : cell);
+        b.max[axis] = (int64_t)high[axis] + (lets_out(domain->side[2 * axis + 1]) ? 0 : cell);
     }
     return b;
 }
 
-/* Finds the side that a particle is beyond: an open side if there is one, else a wall side. */
+/* Finds the side that a particle is beyond: one that lets water out if there is one, else a wall side. */
 static sb_exit outside(const sb_sim *sim, const bounds *b, sb_record record)
 {
     sb_exit result = {-1, false};
@@ -39,7 +45,7 @@ static sb_exit outside(const sb_sim *sim, const bounds *b, sb_record record)
         int64_t x = record[a];
         if (x >= b->min[a] && x <= b->max[a]) continue;
         const int side = 2 * a + (x > b->max[a]);
-        if (sim->scene->domain.side[side] == SB_SIDE_OPEN) return (sb_exit){side, false};
+        if (lets_out(sim->scene->domain.side[side])) return (sb_exit){side, false};
         result = (sb_exit){side, true};
     }
     return result;
@@ -50,20 +56,22 @@ static size_t make_words(sb_sim *sim, const bounds *b)
 {
     const uint64_t gone = ((uint64_t)1 << sim->space.key_bits) - 1;
     const bool repeats = sim->space.repeats;
-    uint64_t left = 0, lost = 0;
-#pragma omp parallel for schedule(static) reduction(+ : left, lost)
+    uint64_t left = 0, lost = 0, crossed = 0;
+#pragma omp parallel for schedule(static) reduction(+ : left, lost, crossed)
     for (size_t i = 0; i < sim->state.n; i++) {
         if (repeats) sim->state.position[i] = sb_space_wrap(&sim->space, sim->state.position[i]);
         const sb_exit way = outside(sim, b, sim->state.position[i]);
         left += way.side >= 0 && !way.lost;
         lost += way.side >= 0 && way.lost;
+        crossed += way.side >= 0 && sim->scene->domain.side[way.side] == SB_SIDE_SEA;
         uint64_t key = way.side >= 0 ? gone : sb_space_key(&sim->space, sim->state.position[i]);
         sim->work.sort_words[i] = sb_sort_word(key, i);
     }
-    uint64_t counts[] = {left, lost};
-    sim->exchange->count(sim, counts, 2);
-    sim->state.left_domain += counts[0];
+    uint64_t counts[] = {left, lost, crossed};
+    sim->exchange->count(sim, counts, 3);
+    sim->state.left_domain += counts[0] - counts[2];
     sim->state.lost += counts[1];
+    sim->state.crossing.out += counts[2];
     return sim->state.n - left - lost;
 }
 
@@ -135,6 +143,33 @@ static void permute(sb_sim *sim, const uint64_t *words)
     }
 }
 
+/* Exchanges what the bookings of two particles read. */
+static void swap(sb_sim *sim, size_t a, size_t b)
+{
+    const sb_record position = sim->state.position[a];
+    const sb_f4 velocity = sim->state.velocity[a];
+    const uint32_t id = sim->state.id[a];
+    sim->state.position[a] = sim->state.position[b], sim->state.position[b] = position;
+    sim->state.velocity[a] = sim->state.velocity[b], sim->state.velocity[b] = velocity;
+    sim->state.id[a] = sim->state.id[b], sim->state.id[b] = id;
+}
+
+/* Books the particles from `first` on, which leave. */
+static void note_departures(sb_sim *sim, const bounds *b, size_t first)
+{
+    size_t seawards = first; /* particles that leave to a given sea come first */
+    for (size_t i = first; i < sim->state.n; i++) {
+        const sb_exit way = outside(sim, b, sim->state.position[i]);
+        const bool sea = sim->scene->domain.side[way.side] == SB_SIDE_SEA;
+        if (sea) swap(sim, i, seawards++);
+    }
+    for (size_t i = seawards; i < sim->state.n; i++)
+        sb_departures_note(sim, outside(sim, b, sim->state.position[i]), i);
+    if (!sim->policy->runs) return;
+    if (seawards > first) sb_ledger_cross(sim, first, seawards);
+    sb_ledger_leave(sim, seawards, sim->state.n);
+}
+
 sb_status sb_stage_sort(sb_sim *sim, sb_error *error)
 {
     const bounds b = domain_bounds(sim);
@@ -144,8 +179,7 @@ sb_status sb_stage_sort(sb_sim *sim, sb_error *error)
     if (!sorted) return sb_fail_memory(error, "sorting");
     order_cells(sim, sorted);
     permute(sim, sorted);
-    for (size_t i = stay; i < sim->state.n; i++) sb_departures_note(sim, outside(sim, &b, sim->state.position[i]), i);
-    if (sim->policy->runs) sb_ledger_leave(sim, stay, sim->state.n);
+    note_departures(sim, &b, stay);
     sim->state.n = sim->work.everywhere = stay;
     sim->exchange->count(sim, &sim->work.everywhere, 1);
     if (sb_cells_build(&sim->cells, sim->state.position, sim->state.n, sim->space.shift) != 0)

@@ -2,6 +2,9 @@
 #include "base/hash.h"
 #include "sim/exchange/exchange.h"
 #include "sim/exchange/sums.h"
+#include "sim/sea/strip.h"
+
+#include <stddef.h>
 
 /* Adds one particle at a time, so that the sums do not depend on the groups, which a state just loaded does not have.
  */
@@ -60,7 +63,8 @@ uint64_t sb_sim_hash(const sb_sim *sim)
     sim->exchange->count(sim, counts, 2);
     uint64_t hash = sb_hash(sb_hash(0, &counts[0], sizeof *counts), &counts[1], sizeof *counts);
     hash = sb_hash(hash, sim->state.impulse, sim->model->body_count * sizeof *sim->state.impulse);
-    hash = sb_hash(hash, &sim->state.ledger, sizeof sim->state.ledger);
+    hash = sb_hash(hash, &sim->state.ledger, offsetof(sb_ledger, sea)); /* the rest belongs to the strips */
+    hash = sb_strip_hash(sim, hash);
     hash = sb_hash(hash, &sim->state.time, sizeof sim->state.time);
     return sb_hash(hash, &sim->state.step, sizeof sim->state.step);
 }

@@ -4,7 +4,9 @@
 #include "base/archive.h"
 #include "base/memory.h"
 #include "sim/report/report.h"
+#include "sim/sea/strip.h"
 #include "sim/search/departures.h"
+#include "sim/search/sort.h"
 #include "sim/simulation.h"
 #include "sim/step/settle.h"
 #include "sim/walls/walls.h"
@@ -94,6 +96,7 @@ void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
     }
     sb_put_list(out, sim->state.impulse, sim->model->body_count, sizeof *sim->state.impulse);
     sb_put_list(out, &sim->state.ledger, sizeof sim->state.ledger / sizeof(double), sizeof(double));
+    sb_strip_save(sim, out);
     sb_put_count(out, sim->walls.moving_count);
     for (size_t m = 0; m < sim->walls.moving_count; m++) {
         sb_put_real(out, sim->walls.moving[m].displacement);
@@ -111,11 +114,11 @@ static void check_particles(const sb_sim *sim, size_t n, sb_archive_in *in)
     for (size_t i = 0; i < n; i++) {
         const sb_record at = state->position[i];
         if (at[0] >= SB_POSITION_END || at[1] >= SB_POSITION_END || at[2] >= SB_POSITION_END ||
-            state->id[i] >= sim->model->fluid_count)
+            state->id[i] >= state->next_id)
             sb_archive_refuse(in,
-                              "particle %u at (%u, %u, %u) quanta: expected a particle number below %zu and "
+                              "particle %u at (%u, %u, %u) quanta: expected a particle number below %u and "
                               "coordinates below %u",
-                              state->id[i], at[0], at[1], at[2], sim->model->fluid_count, SB_POSITION_END);
+                              state->id[i], at[0], at[1], at[2], state->next_id, SB_POSITION_END);
         if (state->density_correction && isinf(state->density_correction[i]))
             sb_archive_refuse(in, "density correction of particle %zu is %g kg/m^3, expected a finite value", i,
                               (double)state->density_correction[i]);
@@ -125,12 +128,15 @@ static void check_particles(const sb_sim *sim, size_t n, sb_archive_in *in)
 static void take_particles(sb_sim *sim, sb_archive_in *in)
 {
     sb_state *state = &sim->state;
-    const size_t n = sb_take_length(in, sizeof *state->position, sim->model->fluid_count);
+    const size_t most = sim->needs.sea ? ((size_t)1 << SB_INDEX_BITS) - 1 : sim->model->fluid_count;
+    const size_t n = sb_take_length(in, sizeof *state->position, most);
+    if (n > state->owned && (sb_state_grow(state, 0, n) != 0 ||
+                             sb_work_create(&sim->work, &sim->needs, state->owned, state->capacity) != 0))
+        sb_archive_refuse(in, "%zu particles: not enough memory", n);
     for (const sb_state_field *f = sb_state_fields; f->name; f++) {
         void *entries = sb_state_entries(state, f);
         sb_take_list(in, entries, entries ? n : 0, f->size);
     }
-    check_particles(sim, n, in);
     state->n = in->error.status == SB_OK ? n : 0;
 }
 
@@ -184,6 +190,8 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     take_particles(sim, in);
     sb_take_list(in, sim->state.impulse, sim->model->body_count, sizeof *sim->state.impulse);
     sb_take_list(in, &sim->state.ledger, sizeof sim->state.ledger / sizeof(double), sizeof(double));
+    sb_strip_load(sim, in);
+    check_particles(sim, sim->state.n, in);
     take_moving(sim, in);
     const uint64_t expected = sb_take_count(in, UINT64_MAX), hash = sb_sim_hash(sim);
     if (in->error.status == SB_OK && hash != expected)

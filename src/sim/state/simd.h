@@ -1,7 +1,9 @@
-/* Four-lane vectors, the 16-byte records made of them, and the choice of the instruction set at run time. A record
-   takes one 128-bit load per neighbour; gathers from separate arrays are slower (docs/decisions/0002). */
+/* Four-lane vectors, and the 16-byte records made of them. A record takes one 128-bit load per neighbour; gathers from
+   separate arrays are slower (docs/decisions/0002). */
 #ifndef SB_SIM_SIMD_H
 #define SB_SIM_SIMD_H
+
+#include "base/multiversion.h"
 
 #include <stdint.h>
 #include <string.h>
@@ -19,19 +21,6 @@ typedef float sb_f8 __attribute__((vector_size(32), aligned(4)));
 /* Position record: x, y, z in quanta, and in the last lane the bits of a float: argument of the pressure operator. */
 typedef sb_u4 sb_record;
 
-/* A function with this mark is compiled once per instruction set, and the loader selects one. Sanitizers cannot
-   instrument that selection. SB_INSTRUCTIONS names a single set instead, for tests. A build for one processor
-   (SB_NATIVE) needs only the set of that processor. */
-#ifdef SB_INSTRUCTIONS
-#define SB_MULTIVERSION __attribute__((target("arch=" SB_INSTRUCTIONS)))
-#elif defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(SB_NATIVE) &&                        \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define SB_MULTIVERSION __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#define SB_MULTIVERSIONED
-#else
-#define SB_MULTIVERSION
-#endif
-#define SB_INLINE static inline __attribute__((always_inline))
 /* A function with this mark is compiled once, for any processor. Otherwise the compiler might inline it into the caller
    in one build and not in another, and the two would round differently. */
 #define SB_APART static __attribute__((noinline))

@@ -34,6 +34,23 @@ int sb_state_create(sb_state *state, const sb_needs *needs, size_t particles, si
     return 0;
 }
 
+int sb_state_grow(sb_state *state, size_t used, size_t owned)
+{
+    const size_t capacity = state->capacity + owned - state->owned;
+    for (const sb_state_field *f = sb_state_fields; f->name; f++) {
+        void *entries = sb_state_entries(state, f);
+        if (!entries) continue;
+        void *longer = sb_alloc(f->ghosts ? capacity : owned, f->size);
+        if (!longer) return -1;
+        memcpy(longer, entries, used * f->size);
+        sb_free(entries);
+        set_entries(state, f, longer);
+    }
+    state->owned = owned;
+    state->capacity = capacity;
+    return 0;
+}
+
 int sb_state_lengthen(sb_state *state, size_t used, size_t capacity)
 {
     for (const sb_state_field *f = sb_state_fields; f->name; f++) {

@@ -36,6 +36,8 @@ typedef struct sb_state {
     sb_settle settle;
     sb_body_impulse *impulse; /* per body */
     sb_ledger ledger;
+    uint32_t next_id;           /* of the next particle that comes in */
+    sb_crossing crossing;       /* through sides of kind sea */
     uint64_t left_domain, lost; /* particles that left through open sides, and that passed a wall side */
     sb_departures departures;
 } sb_state;
@@ -59,6 +61,9 @@ static inline void *sb_state_entries(const sb_state *state, const sb_state_field
 
 /* Allocates the fields that the scene needs, and the bodies' impulses. Returns 0, or -1 without memory. */
 int sb_state_create(sb_state *state, const sb_needs *needs, size_t particles, size_t bodies);
+/* Allocates `owned` entries, and the same number more than now with ghosts; the first `used` keep their values. Returns
+   0, or -1 without memory. */
+int sb_state_grow(sb_state *state, size_t used, size_t owned);
 /* Allocates `capacity` entries for the fields that have ghosts; the first `used` keep their values. Returns 0, or -1
    without memory. */
 int sb_state_lengthen(sb_state *state, size_t used, size_t capacity);

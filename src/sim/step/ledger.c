@@ -1,6 +1,7 @@
 #include "sim/step/ledger.h"
 
 #include "sim/exchange/exchange.h"
+#include "sim/sea/strip.h"
 
 /* Sum of the forces (N) on all bodies, and their power (W) on the moving bodies. */
 typedef struct body_sums {
@@ -23,9 +24,25 @@ static body_sums sum_bodies(const sb_sim *sim)
     return all;
 }
 
+/* Moves the works on held particles from the sums of a step to where they belong. Returns the momentum that holding
+   them has added. */
+static sb_vec3 book_held(sb_sim *sim, sb_ledger_sums *s)
+{
+    if (!sim->strip) return (sb_vec3){0};
+    const double m = (double)sim->constant.mass, solve = sim->strip->solve_work, hold = sim->strip->hold_work;
+    sb_crossing *c = &sim->state.crossing;
+    s->forces -= solve + hold;
+    s->solve += solve;
+    sim->state.ledger.sea += m * hold;
+    c->held += m * hold;
+    c->push = sb_add(c->push, sim->strip->push);
+    return sim->strip->push;
+}
+
 void sb_ledger_close(sb_sim *sim)
 {
-    const sb_ledger_sums s = sim->work.sums;
+    sb_ledger_sums s = sim->work.sums;
+    const sb_vec3 held = book_held(sim, &s);
     const body_sums bodies = sum_bodies(sim);
     const double m = (double)sim->constant.mass, g = (double)sim->constant.gravity;
     const double dt = (double)(float)sim->state.time_step; /* in the precision that advanced the velocities */
@@ -42,19 +59,40 @@ void sb_ledger_close(sb_sim *sim)
     const double weight = m * g * (double)sim->work.everywhere;
     const sb_vec3 gain = sb_scale(sb_vec(s.gain[0], s.gain[1], s.gain[2]), m);
     sb_vec3 off = sb_madd(sb_add(gain, sim->work.stress_gain), dt, sb_add(bodies.force, sb_vec(0, 0, weight)));
+    off = sb_sub(off, held);
     sim->report.momentum_imbalance = s.size > 0 ? sb_norm(off) / (m * s.size) : 0;
+}
+
+/* Energy of particles [first, end), J, over all domains. */
+static double energy_of(const sb_sim *sim, size_t first, size_t end)
+{
+    const double m = (double)sim->constant.mass, g = (double)sim->constant.gravity;
+    const double base = sim->model->min.z - sim->space.origin.z;
+    sb_exact sum = {0};
+    for (size_t i = first; i < end; i++) {
+        const sb_f4 v = sim->state.velocity[i];
+        const double square = sb_ledger_work((sb_f4){0}, v, v, v);
+        sb_exact_add(&sum, m * (0.5 * square + g * (sim->state.position[i][2] * sim->space.quantum - base)));
+    }
+    sim->exchange->sum(sim, &sum, 1);
+    return sb_exact_value(&sum);
 }
 
 void sb_ledger_leave(sb_sim *sim, size_t first, size_t end)
 {
-    const double m = (double)sim->constant.mass, g = (double)sim->constant.gravity;
-    const double base = sim->model->min.z - sim->space.origin.z;
-    sb_exact left = {0};
-    for (size_t i = first; i < end; i++) {
-        const sb_f4 v = sim->state.velocity[i];
-        const double square = sb_ledger_work((sb_f4){0}, v, v, v);
-        sb_exact_add(&left, m * (0.5 * square + g * (sim->state.position[i][2] * sim->space.quantum - base)));
-    }
-    sim->exchange->sum(sim, &left, 1);
-    sim->state.ledger.left -= sb_exact_value(&left);
+    sim->state.ledger.left -= energy_of(sim, first, end);
+}
+
+void sb_ledger_cross(sb_sim *sim, size_t first, size_t end)
+{
+    sb_crossing *c = &sim->state.crossing;
+    const double energy = energy_of(sim, first, end), m = (double)sim->constant.mass;
+    sb_exact sum[3] = {0};
+    for (size_t i = first; i < end; i++)
+        for (int axis = 0; axis < 3; axis++) sb_exact_add(&sum[axis], (double)sim->state.velocity[i][axis]);
+    sim->exchange->sum(sim, sum, 3);
+    sim->state.ledger.sea -= energy;
+    c->energy -= energy;
+    c->momentum =
+        sb_madd(c->momentum, -m, sb_vec(sb_exact_value(&sum[0]), sb_exact_value(&sum[1]), sb_exact_value(&sum[2])));
 }

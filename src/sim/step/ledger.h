@@ -57,4 +57,7 @@ void sb_ledger_close(sb_sim *sim);
 /* Enters the energy of particles [first, end), which leave the domain. */
 void sb_ledger_leave(sb_sim *sim, size_t first, size_t end);
 
+/* The same for particles that leave to a given sea. */
+void sb_ledger_cross(sb_sim *sim, size_t first, size_t end);
+
 #endif

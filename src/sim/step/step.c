@@ -2,6 +2,7 @@
 #include "base/clock.h"
 #include "sim/exchange/exchange.h"
 #include "sim/report/report.h"
+#include "sim/sea/strip.h"
 #include "sim/step/stages.h"
 #include "sim/terms/density_correction.h"
 #include "sim/terms/stress_correction.h"
@@ -20,6 +21,8 @@ static const stage stages[] = {
     {"time_step", SB_PHASES, sb_stage_time_step, SB_ALWAYS},
     /* paddles at t, their velocity to t + dt */
     {"walls", SB_PHASES, sb_stage_walls, SB_ALWAYS},
+    /* outgoing waves at sides of kind sea; particles that come in */
+    {"inflow", SB_PHASES, sb_stage_inflow, SB_NEEDS(sea)},
     /* wrap at periodic sides; Z-order, cells */
     {"sort", SB_PHASE_SORT, sb_stage_sort, SB_ALWAYS},
     /* images beyond periodic sides */
@@ -28,12 +31,16 @@ static const stage stages[] = {
     {"neighbours", SB_PHASE_NEIGHBOURS, sb_stage_neighbours, SB_ALWAYS},
     /* density sums at surfaces and walls */
     {"density_correction", SB_PHASE_DENSITY_CORRECTION, sb_stage_density_correction, SB_NEEDS(density_correction)},
+    /* particles of the strips of given water */
+    {"held", SB_PHASES, sb_stage_held, SB_NEEDS(sea)},
     /* removes deviatoric stress of the particle packing */
     {"stress_correction", SB_PHASE_STRAIN, sb_stage_stress_correction, SB_NEEDS(stress_correction)},
     /* eddy viscosity from the strain rate */
     {"turbulence", SB_PHASE_TURBULENCE, sb_stage_turbulence, SB_NEEDS(turbulence)},
     /* v* = v + dt (g + viscosity + friction) */
     {"forces", SB_PHASE_FORCES, sb_stage_forces, SB_ALWAYS},
+    /* their velocity and pressure */
+    {"hold", SB_PHASES, sb_stage_hold, SB_NEEDS(sea)},
     /* b = beta (rho_0 - rho) - dt div v* */
     {"source", SB_PHASE_SOURCE, sb_stage_source, SB_ALWAYS},
     /* q >= 0, A q <= b, and its acceleration */
@@ -42,6 +49,8 @@ static const stage stages[] = {
     {"accelerate", SB_PHASE_ACCELERATE, sb_stage_accelerate, SB_ALWAYS},
     /* contact with walls, reactions on bodies */
     {"impulse", SB_PHASE_IMPULSE, sb_stage_impulse, SB_ALWAYS},
+    /* what has held them */
+    {"book", SB_PHASES, sb_stage_book, SB_NEEDS(sea)},
     /* x at t + dt */
     {"move", SB_PHASE_MOVE, sb_stage_move, SB_ALWAYS},
 };

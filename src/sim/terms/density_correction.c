@@ -1,5 +1,7 @@
 #include "sim/terms/density_correction.h"
 
+#include "sim/sea/strip.h"
+
 #include <math.h>
 
 /* Margin of the bounds of c_i, as a fraction of the rest density. A wider margin lets particles keep disorder, at which
@@ -37,8 +39,10 @@ sb_status sb_stage_density_correction(sb_sim *sim, sb_error *error)
     const size_t n = sim->state.n;
     const double crossed = sim->state.time_step * (double)sim->constant.wave_speed / (double)sim->constant.support;
     const float share = (float)fmin(crossed / CROSSED, 1);
+    const sb_strip *strip = sim->strip;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
+        if (strip && sb_strip_side_of(strip, sim->state.position[i])) continue; /* it keeps its own */
         float *own = &sim->state.density_correction[i];
         *own = corrected(&sim->constant, *own, sim->work.density[i], sim->work.wall_density[i],
                          sim->work.water_squared[i], share);

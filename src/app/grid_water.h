@@ -1,0 +1,31 @@
+/* Runs of the depth-averaged model alone: scenes with `offshore`. */
+#ifndef SB_APP_GRID_WATER_H
+#define SB_APP_GRID_WATER_H
+
+#include "app/run.h"
+#include "app/warnings.h"
+#include "offshore/offshore.h"
+
+/* What check and the log tell about the model before the first step. */
+typedef struct sb_grid_facts {
+    size_t columns, rows, wet, uncovered; /* cells: wet at the start; beside all bodies */
+    double deepest, time_step, bytes;     /* m, s, bytes */
+} sb_grid_facts;
+
+/* Makes the model of a scene at t = 0. *facts may be NULL. SB_BAD_INPUT also when there is no water, SB_FAILED when it
+   does not fit into memory. */
+sb_status sb_grid_water_create(const sb_scene *scene, sb_offshore **water, sb_grid_facts *facts, sb_error *error);
+
+/* Settings of the scene that have no effect here, and doubtful ones. */
+void sb_grid_water_warnings(const sb_scene *scene, const sb_grid_facts *facts, sb_warning_visit *visit, void *context);
+
+/* As sb_run, for a scene with `offshore`. */
+sb_status sb_grid_run(const sb_scene *scene, const char *directory, const sb_run_options *options, sb_error *error);
+
+/* Prints what `check` tells. */
+sb_status sb_grid_check(const sb_scene *scene, bool json, sb_error *error);
+
+/* SB_BAD_INPUT for a scene with `offshore`, for commands that need particles; command: its name. */
+sb_status sb_grid_refuse(const sb_scene *scene, const char *command, sb_error *error);
+
+#endif

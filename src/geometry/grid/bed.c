@@ -1,0 +1,150 @@
+#include "geometry/grid/bed.h"
+#include "base/memory.h"
+#include "geometry/mesh/mesh.h"
+
+#include <math.h>
+#include <stdio.h>
+
+size_t sb_bed_columns(const sb_scene *scene)
+{
+    const sb_offshore_settings *o = &scene->offshore;
+    return (size_t)lround((o->x_max - o->x_min) / o->cell);
+}
+
+size_t sb_bed_rows(const sb_scene *scene)
+{
+    const sb_offshore_settings *o = &scene->offshore;
+    return scene->dimensions == 2 ? 1 : (size_t)lround((o->y_max - o->y_min) / o->cell);
+}
+
+/* The cell centres to which heights are written. */
+typedef struct raster {
+    double x, y, cell; /* m, first centre */
+    size_t columns, rows;
+    double *height; /* NAN: none yet */
+    bool replace;   /* a new height replaces the one that is there; otherwise the higher one stays */
+} raster;
+
+static raster raster_of(const sb_scene *scene, double *height)
+{
+    const sb_offshore_settings *o = &scene->offshore;
+    return (raster){.x = o->x_min + 0.5 * o->cell,
+                    .y = scene->dimensions == 2 ? 0 : o->y_min + 0.5 * o->cell,
+                    .cell = o->cell,
+                    .columns = sb_bed_columns(scene),
+                    .rows = sb_bed_rows(scene),
+                    .height = height};
+}
+
+/* First and last centre within [low, high], clamped to the grid; *first > *last when there is none. */
+static void range(double low, double high, double start, double cell, size_t count, long *first, long *last)
+{
+    const double edge = 1e-9; /* cells, so that a centre on the edge of a triangle is within */
+    *first = (long)fmin(fmax(ceil((low - start) / cell - edge), 0), (double)count);
+    *last = (long)fmin(fmax(floor((high - start) / cell + edge), -1), (double)count - 1);
+}
+
+/* Writes the heights of one triangle at the centres that it covers, seen from above. */
+static void draw(const raster *r, sb_vec3 a, sb_vec3 b, sb_vec3 c)
+{
+    const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+    if (area == 0) return; /* upright */
+    long left, right, low, high;
+    range(fmin(a.x, fmin(b.x, c.x)), fmax(a.x, fmax(b.x, c.x)), r->x, r->cell, r->columns, &left, &right);
+    range(fmin(a.y, fmin(b.y, c.y)), fmax(a.y, fmax(b.y, c.y)), r->y, r->cell, r->rows, &low, &high);
+    for (long j = low; j <= high; j++)
+        for (long i = left; i <= right; i++) {
+            const double x = r->x + (double)i * r->cell, y = r->y + (double)j * r->cell, slack = -1e-9;
+            const double wb = ((x - a.x) * (c.y - a.y) - (c.x - a.x) * (y - a.y)) / area;
+            const double wc = ((b.x - a.x) * (y - a.y) - (x - a.x) * (b.y - a.y)) / area;
+            if (wb < slack || wc < slack || 1 - wb - wc < slack) continue;
+            double *height = &r->height[(size_t)j * r->columns + (size_t)i];
+            const double z = a.z + wb * (b.z - a.z) + wc * (c.z - a.z);
+            if (r->replace || !(*height >= z)) *height = z;
+        }
+}
+
+static sb_status draw_body(const raster *r, const sb_body *body, sb_error *error)
+{
+    sb_mesh *meshes = NULL;
+    size_t count = 0;
+    sb_status status = sb_mesh_from_body(body, r->cell, &meshes, &count, error);
+    for (size_t m = 0; m < count; m++) {
+        const sb_vec3 *v = meshes[m].vertices;
+        for (size_t t = 0; t < meshes[m].triangle_count; t++) {
+            const uint32_t *corner = meshes[m].triangles[t];
+            draw(r, v[corner[0]], v[corner[1]], v[corner[2]]);
+        }
+        sb_mesh_free(&meshes[m]);
+    }
+    sb_free(meshes);
+    return status;
+}
+
+static sb_status draw_grid(const raster *r, const sb_offshore_grid *grid, const char *key, sb_error *error)
+{
+    sb_body body = {.shape = SB_SHAPE_GRID,
+                    .role = SB_ROLE_TERRAIN,
+                    .file = grid->file,
+                    .scale = grid->scale,
+                    .positive = grid->positive,
+                    .datum = grid->datum,
+                    .translate = sb_vec(grid->x, grid->y, 0)};
+    snprintf(body.name, sizeof body.name, "%s", key);
+    return draw_body(r, &body, error);
+}
+
+static void clear(const raster *r)
+{
+    for (size_t k = 0; k < r->columns * r->rows; k++) r->height[k] = (double)NAN;
+}
+
+/* Fails when a cell has no height. */
+static sb_status check_covered(const raster *r, sb_error *error)
+{
+    size_t missing = 0, first = 0;
+    for (size_t k = r->columns * r->rows; k-- > 0;)
+        if (isnan(r->height[k])) {
+            missing++;
+            first = k;
+        }
+    if (missing == 0) return SB_OK;
+    return sb_fail(
+        error, SB_BAD_INPUT,
+        "offshore.terrain: no height at (%.9g, %.9g) m and at %zu other cells, expected grids that cover the "
+        "model, or a smaller offshore.min and max",
+        r->x + (double)(first % r->columns) * r->cell, r->y + (double)(first / r->columns) * r->cell, missing - 1);
+}
+
+sb_status sb_bed_fill(const sb_scene *scene, double *bed, size_t *uncovered, sb_error *error)
+{
+    const sb_offshore_settings *o = &scene->offshore;
+    raster r = raster_of(scene, bed);
+    sb_status status = SB_OK;
+    clear(&r);
+    *uncovered = 0;
+    r.replace = o->terrain_count > 0;
+    for (size_t k = 0; status == SB_OK && k < o->terrain_count; k++) {
+        char key[48];
+        snprintf(key, sizeof key, "offshore.terrain[%zu]", k);
+        status = draw_grid(&r, &o->terrain[k], key, error);
+    }
+    if (o->terrain_count > 0) return status == SB_OK ? check_covered(&r, error) : status;
+    for (size_t b = 0; status == SB_OK && b < scene->body_count; b++) status = draw_body(&r, &scene->bodies[b], error);
+    for (size_t k = 0; k < r.columns * r.rows; k++) {
+        *uncovered += isnan(bed[k]) && scene->body_count > 0;
+        if (!(bed[k] >= scene->domain.min.z)) bed[k] = scene->domain.min.z;
+    }
+    return status;
+}
+
+sb_status sb_uplift_fill(const sb_scene *scene, double *uplift, sb_error *error)
+{
+    const raster r = raster_of(scene, uplift);
+    sb_status status = SB_OK;
+    clear(&r);
+    if (scene->offshore.has_uplift) status = draw_grid(&r, &scene->offshore.uplift, "offshore.uplift", error);
+    for (size_t k = 0; k < r.columns * r.rows; k++)
+        if (isnan(uplift[k])) uplift[k] = 0;
+    return status;
+}

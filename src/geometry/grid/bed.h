@@ -1,0 +1,20 @@
+/* Heights of terrain at the cell centres of the depth-averaged model's grid. */
+#ifndef SB_GEOMETRY_GRID_BED_H
+#define SB_GEOMETRY_GRID_BED_H
+
+#include "base/status.h"
+#include "scene/scene.h"
+
+/* Number of cells of scene->offshore; 1 row in 2D. */
+size_t sb_bed_columns(const sb_scene *scene);
+size_t sb_bed_rows(const sb_scene *scene);
+
+/* Fills bed[row * columns + column], m: linear within the triangles of offshore.terrain, or else the highest surface of
+   the bodies seen from above, or else the domain's floor. SB_BAD_INPUT names a file that cannot be read, or the first
+   cell that offshore.terrain does not cover. *uncovered: cells beside all bodies, which have the domain's floor. */
+sb_status sb_bed_fill(const sb_scene *scene, double *bed, size_t *uncovered, sb_error *error);
+
+/* Fills the heights of offshore.uplift in the same way; 0 where the file has none, and everywhere without an uplift. */
+sb_status sb_uplift_fill(const sb_scene *scene, double *uplift, sb_error *error);
+
+#endif

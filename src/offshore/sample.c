@@ -1,0 +1,68 @@
+/* The water at a place. */
+#include "offshore/state.h"
+
+#include <math.h>
+
+/* The four cells around a place, and their weights. */
+typedef struct corners {
+    size_t at[4];
+    double weight[4];
+} corners;
+
+/* Cell below a coordinate in cells, and the fraction of the way to the next one; clamped to the grid. */
+static size_t locate(double coordinate, size_t count, double *fraction)
+{
+    const double place = fmin(fmax(coordinate - 0.5, 0), (double)(count - 1));
+    const size_t low = place >= (double)(count - 1) && count > 1 ? count - 2 : (size_t)place;
+    *fraction = place - (double)low;
+    return low;
+}
+
+static corners around(const sb_offshore *offshore, double x, double y)
+{
+    const sb_offshore_options *o = &offshore->options;
+    double fx, fy = 0;
+    const size_t i = locate((x - o->x) / o->cell, o->columns, &fx);
+    const size_t j = sb_offshore_flat(offshore) ? 0 : locate((y - o->y) / o->cell, o->rows, &fy);
+    const size_t at = offshore->origin + j * offshore->stride + i;
+    const size_t up = sb_offshore_flat(offshore) ? 0 : offshore->stride;
+    return (corners){.at = {at, at + 1, at + up, at + up + 1},
+                     .weight = {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy}};
+}
+
+/* Dry cells take part with the mean surface of the wet ones; where this is below the bed, the place is dry. */
+static sb_offshore_water mix(const sb_offshore *offshore, const sb_offshore_level *level, const corners *c, double bed,
+                             bool *wet)
+{
+    const double dry = offshore->options.dry_depth;
+    sb_offshore_water sum = {0};
+    double weight = 0, h = 0, hu = 0, hv = 0;
+    for (int k = 0; k < 4; k++) {
+        const size_t at = c->at[k];
+        h += c->weight[k] * level->h[at];
+        hu += c->weight[k] * level->hu[at];
+        hv += c->weight[k] * level->hv[at];
+        if (!(level->h[at] > dry)) continue;
+        weight += c->weight[k];
+        sum.surface += c->weight[k] * (level->h[at] + offshore->bed[at]);
+    }
+    *wet = weight > 0 && sum.surface / weight > bed;
+    if (!*wet) return (sb_offshore_water){.surface = bed};
+    const double square = h * h + fmax(h * h, dry * dry);
+    return (sb_offshore_water){.surface = sum.surface / weight, .u = 2 * h * hu / square, .v = 2 * h * hv / square};
+}
+
+sb_offshore_sample sb_offshore_at(const sb_offshore *offshore, double x, double y)
+{
+    const corners c = around(offshore, x, y);
+    sb_offshore_sample sample = {.time = {offshore->before_time, offshore->time}};
+    for (int k = 0; k < 4; k++) sample.bed += c.weight[k] * offshore->bed[c.at[k]];
+    sample.water[0] = mix(offshore, &offshore->before, &c, sample.bed, &sample.wet[0]);
+    sample.water[1] = mix(offshore, &offshore->now, &c, sample.bed, &sample.wet[1]);
+    const double dt = sample.time[1] - sample.time[0];
+    if (dt > 0)
+        sample.rate = (sb_offshore_water){(sample.water[1].surface - sample.water[0].surface) / dt,
+                                          (sample.water[1].u - sample.water[0].u) / dt,
+                                          (sample.water[1].v - sample.water[0].v) / dt};
+    return sample;
+}

@@ -1,0 +1,121 @@
+#include "scene/reader.h"
+
+#include <math.h>
+
+static const char *const positive_names[] = {"up", "down", NULL};
+
+#define GRID_KEYS                                                                                                      \
+    {.name = "file",                                                                                                   \
+     .type = SB_KEY_FILE,                                                                                              \
+     SB_KEY_AT(sb_offshore_grid, file),                                                                                \
+     .flags = SB_KEY_REQUIRED,                                                                                         \
+     .doc = "Heights in metres: ESRI ASCII (.asc), GeoClaw topotype 1 to 3, or lines of x y z."},                      \
+        {.name = "scale",                                                                                              \
+         .type = SB_KEY_NUMBER,                                                                                        \
+         SB_KEY_AT(sb_offshore_grid, scale),                                                                           \
+         .unit = "m",                                                                                                  \
+         SB_KEY_POSITIVE,                                                                                              \
+         .fallback = "1",                                                                                              \
+         .doc = "Length of one file unit."},                                                                           \
+        {.name = "positive",                                                                                           \
+         .type = SB_KEY_CHOICE,                                                                                        \
+         SB_KEY_AT(sb_offshore_grid, positive),                                                                        \
+         .words = positive_names,                                                                                      \
+         .fallback = "up",                                                                                             \
+         .doc = "Direction of the file's numbers: `up` for heights, `down` for depths."},                              \
+        {.name = "datum",                                                                                              \
+         .type = SB_KEY_NUMBER,                                                                                        \
+         SB_KEY_AT(sb_offshore_grid, datum),                                                                           \
+         .unit = "m",                                                                                                  \
+         SB_KEY_ANY,                                                                                                   \
+         .fallback = "0",                                                                                              \
+         .doc = "Value added to all heights."},                                                                        \
+    {                                                                                                                  \
+        .name = "shift", .type = SB_KEY_PLACE, SB_KEY_AT(sb_offshore_grid, x), .unit = "m", SB_KEY_ANY,                \
+        .derived = "no shift", .doc = "Value added to x and y, after `scale`."                                         \
+    }
+
+static const sb_key grid_keys[] = {GRID_KEYS};
+
+static const sb_table grid_table = {SB_KEY_ROWS(grid_keys), .size = sizeof(sb_offshore_grid)};
+
+enum { UPLIFT = 1 };
+
+static unsigned variant(const void *item, const sb_yaml *map)
+{
+    const bool uplift = map ? sb_yaml_child(map, "uplift") != NULL : ((const sb_offshore_settings *)item)->has_uplift;
+    return uplift ? UPLIFT : 0;
+}
+
+/* clang-format off */
+static const sb_key keys[] = {
+    {.name = "cell", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_offshore_settings, cell), .unit = "m", .min = 0,
+     .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Edge of a cell."},
+    {.name = "min", .type = SB_KEY_PLACE, SB_KEY_AT(sb_offshore_settings, x_min), .unit = "m", SB_KEY_ANY,
+     .derived = "that of the domain", .doc = "Corner of the grid with the smallest x and y; [x] in 2D."},
+    {.name = "max", .type = SB_KEY_PLACE, SB_KEY_AT(sb_offshore_settings, x_max), .unit = "m", SB_KEY_ANY,
+     .derived = "that of the domain",
+     .doc = "Corner of the grid with the largest x and y; [x] in 2D. Each extent is a whole number of cells."},
+    {.name = "terrain", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_offshore_settings, terrain, terrain_count),
+     .table = &grid_table, .derived = "the bodies",
+     .doc = "Grids of the bed, coarse ones first: where a later one has heights, these count. Together they cover "
+            "the grid. Without it, the bed is the highest surface of the bodies, or else the domain's floor."},
+    {.name = "level", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_offshore_settings, level), .unit = "m", SB_KEY_ANY,
+     .fallback = "0", .doc = "Still-water level: all ground below it is under water at the start."},
+    {.name = "manning", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_offshore_settings, manning), .unit = "s/m^(1/3)",
+     .min = 0, .max = 1, .fallback = "0.025", .doc = "Manning's number of the bed; 0: no friction."},
+    {.name = "dispersion", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_offshore_settings, dispersion), .fallback = "true",
+     .doc = "Serre-Green-Naghdi equations, for waves whose length is not far above the depth; `false`: shallow-water "
+            "equations, at less than half of the cost."},
+    {.name = "threshold", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_offshore_settings, threshold), .unit = "m",
+     SB_KEY_POSITIVE, .fallback = "0.05",
+     .doc = "Rise that counts as arrival in the maps, and depth from which speed and inundation count."},
+    {.name = "uplift", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_offshore_settings, uplift), .table = &grid_table,
+     .applies = UPLIFT, .only = "an uplift", .derived = "none",
+     .doc = "Grid of heights that are added to the still surface at the start; 0 where it has none."},
+    {.name = "wave", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_offshore_settings, wave), .table = &sb_wave_table,
+     .doc = "Wave at t = 0 by wave theory."},
+};
+/* clang-format on */
+
+/* Fails unless an extent is a whole number of cells, at least 2. */
+static sb_status check_extent(sb_reader *reader, const sb_yaml *map, char axis, double extent, double cell)
+{
+    const double count = extent / cell, most = 1e5;
+    if (!(extent > 0)) return sb_reader_fail(reader, map, "max", "is not above min, expected min < max");
+    if (fabs(count - round(count)) > 1e-6 * count || count < 1.5)
+        return sb_reader_fail(reader, map, "cell",
+                              "the extent of %g m along %c is %.6g cells of %g m, expected a whole "
+                              "number, at least 2",
+                              extent, axis, count, cell);
+    if (count > most)
+        return sb_reader_fail(reader, map, "cell",
+                              "the extent of %g m along %c is %.0f cells of %g m, expected at most "
+                              "%g",
+                              extent, axis, count, cell, most);
+    return SB_OK;
+}
+
+static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    sb_offshore_settings *o = item;
+    const sb_domain *domain = &reader->scene->domain;
+    o->present = true;
+    o->has_uplift = variant(item, map) & UPLIFT;
+    reader->scene->resolution = o->cell;
+    if (!sb_yaml_child(map, "min")) {
+        o->x_min = domain->min.x;
+        o->y_min = domain->min.y;
+    }
+    if (!sb_yaml_child(map, "max")) {
+        o->x_max = domain->max.x;
+        o->y_max = domain->max.y;
+    }
+    sb_status status = check_extent(reader, map, 'x', o->x_max - o->x_min, o->cell);
+    if (status == SB_OK && reader->scene->dimensions == 3)
+        status = check_extent(reader, map, 'y', o->y_max - o->y_min, o->cell);
+    return status;
+}
+
+const sb_table sb_offshore_table = {SB_KEY_ROWS(keys), .size = sizeof(sb_offshore_settings), .variant = variant,
+                                    .finish = finish};

@@ -1,0 +1,66 @@
+#include "sea/line_check.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+/* Times from which on, and up to which, a series must have rows; a rounding error is allowed. */
+static sb_status check_times(const sb_line_point *point, const sb_scene *scene, const char *path, sb_error *error)
+{
+    const double begin = 0 - scene->given.start, end = scene->duration - scene->given.start;
+    const double slack = 1e-9 * (fabs(begin) + fabs(end));
+    const double first = point->times[0], last = point->times[point->count - 1];
+    if (first > begin + slack)
+        return sb_fail(error, SB_BAD_INPUT,
+                       "%.500s: the series at (%g, %g) begins at %g s, expected %g s or earlier, where the run begins; "
+                       "sea.start is the time of the run at which the series has 0 s",
+                       path, point->x, point->y, first, begin);
+    if (last < end - slack)
+        return sb_fail(
+            error, SB_BAD_INPUT,
+            "%.500s: the series at (%g, %g) ends at %g s, expected %g s or later, where the run of %g s ends", path,
+            point->x, point->y, last, end, scene->duration);
+    return SB_OK;
+}
+
+static bool like_degrees(const sb_line *series)
+{
+    for (size_t i = 0; i < series->count; i++) {
+        const sb_line_point *point = &series->points[i];
+        if (point->x < -180 || point->x > 360 || fabs(point->y) > 90) return false;
+    }
+    return true;
+}
+
+static sb_status check_places(const sb_line *series, const sb_scene *scene, const char *path, sb_error *error)
+{
+    const sb_domain *domain = &scene->domain;
+    const bool flat = scene->dimensions == 2;
+    const double width = domain->max.x - domain->min.x, length = flat ? 0 : domain->max.y - domain->min.y;
+    for (size_t i = 0; i < series->count; i++) {
+        const sb_line_point *point = &series->points[i];
+        const double dx = fmax(fmax(domain->min.x - point->x, point->x - domain->max.x), 0);
+        const double dy = flat ? 0 : fmax(fmax(domain->min.y - point->y, point->y - domain->max.y), 0);
+        if (hypot(dx, dy) <= fmax(width, length)) continue;
+        return sb_fail(
+            error, SB_BAD_INPUT,
+            "%.500s: the point (%g, %g) lies %g m from the domain, expected points along its side, in metres "
+            "of the scene%s",
+            path, point->x, point->y, hypot(dx, dy),
+            like_degrees(series) ? "; these look like longitudes and latitudes" : "");
+    }
+    return SB_OK;
+}
+
+sb_status sb_line_check(const sb_line *series, const sb_scene *scene, const char *path, sb_error *error)
+{
+    if (series->count == 0) return sb_fail(error, SB_BAD_INPUT, "%.500s: has no rows, expected at least 2", path);
+    sb_status status = SB_OK;
+    for (size_t i = 0; status == SB_OK && i < series->count; i++) {
+        const sb_line_point *point = &series->points[i];
+        if (point->count < 2)
+            return sb_fail(error, SB_BAD_INPUT, "%.500s: the series at (%g, %g) has 1 row, expected at least 2", path,
+                           point->x, point->y);
+        status = check_times(point, scene, path, error);
+    }
+    return status == SB_OK && series->count > 1 ? check_places(series, scene, path, error) : status;
+}

@@ -1,0 +1,12 @@
+/* Checks of time series along a line against the scene that uses them. Private to src/sea. */
+#ifndef SB_SEA_LINE_CHECK_H
+#define SB_SEA_LINE_CHECK_H
+
+#include "scene/scene.h"
+#include "sea/line.h"
+
+/* SB_BAD_INPUT, with the file's path, unless each point has two rows that contain the run's times, and, where there is
+   more than one point, all are beside the domain. path: of the file. */
+sb_status sb_line_check(const sb_line *series, const sb_scene *scene, const char *path, sb_error *error);
+
+#endif

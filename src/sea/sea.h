@@ -1,0 +1,36 @@
+/* Given water: surface, velocity and acceleration at a place and time, from theory, a table or a record. (The name
+   sb_sea is that of the scene's still water.) */
+#ifndef SB_SEA_SEA_H
+#define SB_SEA_SEA_H
+
+#include "base/status.h"
+#include "scene/scene.h"
+
+/* Constant after its creation; safe for any number of threads. */
+typedef struct sb_sea_source sb_sea_source;
+
+typedef struct sb_sea_point {
+    double surface;         /* m, z of the water's surface; at or below the bed: dry */
+    double velocity[3];     /* m/s */
+    double acceleration[3]; /* m/s^2, d velocity / dt at the place */
+} sb_sea_point;
+
+/* Creates the source that the scene's block `sea` describes; without one it is still water. SB_BAD_INPUT names the file
+   and line, or the key, of what cannot be used. The scene must outlive it. */
+sb_status sb_sea_create(const sb_scene *scene, sb_sea_source **out, sb_error *error);
+void sb_sea_destroy(sb_sea_source *sea);
+
+/* The water at (x, y), m, and time t, s. bed: z of the bed there, m. The velocity is that at the height z; above the
+   surface it is as at the surface. */
+void sb_sea_at(const sb_sea_source *sea, double t, double x, double y, double z, double bed, sb_sea_point *out);
+
+/* The highest surface, m, and the highest speed, m/s, at any time: upper bounds that are reached, or nearly. */
+double sb_sea_greatest_surface(const sb_sea_source *sea);
+double sb_sea_greatest_speed(const sb_sea_source *sea);
+
+/* One line that says what is given, for `check`; valid as long as the source. */
+const char *sb_sea_about(const sb_sea_source *sea);
+/* One line about what can run but is probably not meant; NULL: nothing. */
+const char *sb_sea_warning(const sb_sea_source *sea);
+
+#endif

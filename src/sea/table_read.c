@@ -1,0 +1,169 @@
+#include "sea/table_read.h"
+
+#include "base/columns.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { T, X, Y, ETA, U, V, COLUMNS };
+
+static const double metres[] = {1, 0.01, 0.001, 0.3048};
+static const char *const unit_names[] = {"m", "cm", "mm", "ft"};
+
+/* Where each quantity is in a row; -1: nowhere. */
+typedef struct layout {
+    int column[COLUMNS];
+} layout;
+
+typedef struct name {
+    const char *text;
+    int column;
+} name;
+
+static const name names[] = {
+    {"t", T},         {"time", T},    {"x", X},           {"y", Y}, {"eta", ETA},
+    {"surface", ETA}, {"level", ETA}, {"elevation", ETA}, {"u", U}, {"v", V},
+};
+
+/* The quantity of a column: its name up to a unit, "eta_m", "time (s)", "u [m/s]"; COLUMNS if it is another one. */
+static int column_of(const char *cell)
+{
+    char word[16];
+    const size_t length = strcspn(cell, "_ ([");
+    if (length >= sizeof word) return COLUMNS;
+    for (size_t i = 0; i < length; i++) word[i] = (char)tolower((unsigned char)cell[i]);
+    word[length] = '\0';
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(names[i].text, word) == 0) return names[i].column;
+    return COLUMNS;
+}
+
+static sb_status read_header(const sb_rows *rows, layout *found, sb_error *error)
+{
+    for (int c = 0; c < COLUMNS; c++) found->column[c] = -1;
+    for (size_t i = 0; i < rows->cell_count; i++) {
+        const int column = column_of(rows->cells[i]);
+        if (column == COLUMNS) continue;
+        if (found->column[column] >= 0)
+            return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: two columns are %s, expected one", rows->path, rows->line,
+                           rows->cells[i]);
+        found->column[column] = (int)i;
+    }
+    const char *missing = found->column[T] < 0                            ? "t"
+                          : found->column[ETA] < 0                        ? "eta"
+                          : found->column[U] < 0                          ? "u"
+                          : found->column[X] < 0 && found->column[Y] >= 0 ? "x"
+                                                                          : NULL;
+    if (!missing) return SB_OK;
+    return sb_fail(
+        error, SB_BAD_INPUT,
+        "%.500s:%zu: no column is %s, expected t, eta, u and optionally v, and x, y where there is more than "
+        "one point",
+        rows->path, rows->line, missing);
+}
+
+/* The columns of a table without a header, from their number. */
+static sb_status guess_layout(const sb_rows *rows, layout *found, sb_error *error)
+{
+    static const layout one = {{0, -1, -1, 1, 2, -1}}, one_v = {{0, -1, -1, 1, 2, 3}}, many = {{0, 1, 2, 3, 4, 5}};
+    *found = rows->cell_count == 3 ? one : rows->cell_count == 4 ? one_v : many;
+    if (rows->cell_count == 3 || rows->cell_count == 4 || rows->cell_count == 6) return SB_OK;
+    return sb_fail(
+        error, SB_BAD_INPUT,
+        "%.500s:%zu: %zu columns without a header, expected t, eta, u (3), t, eta, u, v (4), t, x, y, eta, u, "
+        "v (6), or a header that names the columns",
+        rows->path, rows->line, rows->cell_count);
+}
+
+/* A header may name the unit of the scene's key; another one is refused. */
+static sb_status check_unit(const sb_rows *rows, const char *line, sb_given_unit unit, sb_error *error)
+{
+    const char *found = sb_columns_unit(line, strlen(line));
+    if (!found || strcmp(found, unit_names[unit]) == 0) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT,
+                   "%.500s:%zu: its header names the unit %s, expected seconds and %s; see sea.units", rows->path,
+                   rows->line, found, unit_names[unit]);
+}
+
+static sb_status add_row(const sb_rows *rows, const double *value, double unit, sb_line *series, sb_error *error)
+{
+    char place[SB_ROWS_PLACE];
+    const double channels[] = {unit * value[ETA], unit * value[U], unit * value[V]};
+    return sb_line_add(series, unit * value[X], unit * value[Y], value[T], channels, sb_rows_place(rows, place), error);
+}
+
+static sb_status read_csv(sb_rows *rows, char *line, sb_given_unit unit, sb_line *series, sb_error *error)
+{
+    static const char *const what[] = {"t", "x", "y", "eta", "u", "v"};
+    layout found = {{0}};
+    bool known = false;
+    sb_status status = SB_OK;
+    for (; status == SB_OK && line; line = sb_rows_next(rows)) {
+        const bool header = !known && sb_columns_header(line, strcspn(line, "#"));
+        if (*line == '#') continue;
+        line[strcspn(line, "#")] = '\0';
+        if (header) status = check_unit(rows, line, unit, error);
+        if (status == SB_OK) status = sb_rows_cut(rows, line, error);
+        if (status == SB_OK && !known)
+            status = header ? read_header(rows, &found, error) : guess_layout(rows, &found, error);
+        if (status != SB_OK) return status;
+        const bool first = !known;
+        known = true;
+        if (first && header) continue;
+        double value[COLUMNS] = {0};
+        for (int c = 0; status == SB_OK && c < COLUMNS; c++)
+            if (found.column[c] >= 0) status = sb_rows_number(rows, (size_t)found.column[c], what[c], &value[c], error);
+        if (status == SB_OK) status = add_row(rows, value, metres[unit], series, error);
+    }
+    return status;
+}
+
+/* Reads "location=( x y )" of a gauge's first line; a point has no place without it. */
+static sb_status read_location(const sb_rows *rows, const char *line, double *x, double *y, sb_error *error)
+{
+    const char *at = strstr(line, "location=(");
+    char *end = NULL;
+    *x = *y = 0;
+    if (at) *x = strtod(at + strlen("location=("), &end);
+    if (end) *y = strtod(end, &end);
+    if (end && end[strspn(end, " \t")] == ')' && fabs(*x) <= 1e9 && fabs(*y) <= 1e9) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: a gauge of GeoClaw without its place, expected location=( x y )",
+                   rows->path, rows->line);
+}
+
+/* Depth below which GeoClaw's momentum is not divided by it, m; its own default is 1e-3. */
+static const double DRY = 1e-3;
+
+/* One gauge after another: "# gauge_id= 1 location=( x y ) ...", then rows of level, t, h, hu, hv, eta. */
+static sb_status read_geoclaw(sb_rows *rows, char *line, sb_given_unit unit, sb_line *series, sb_error *error)
+{
+    static const char *const what[] = {"level", "t", "h", "hu", "hv", "eta"};
+    double x = 0, y = 0;
+    sb_status status = SB_OK;
+    for (; status == SB_OK && line; line = sb_rows_next(rows)) {
+        if (*line == '#') {
+            if (strstr(line, "gauge_id")) status = read_location(rows, line, &x, &y, error);
+            continue;
+        }
+        status = sb_rows_cut(rows, line, error);
+        double value[6];
+        for (size_t c = 0; status == SB_OK && c < 6; c++) status = sb_rows_number(rows, c, what[c], &value[c], error);
+        if (status != SB_OK) return status;
+        const double over = value[2] > DRY ? 1 / value[2] : 0;
+        const double row[COLUMNS] = {value[1], x, y, value[5], value[3] * over, value[4] * over};
+        status = add_row(rows, row, metres[unit], series, error);
+    }
+    return status;
+}
+
+sb_status sb_table_read(sb_rows *rows, sb_given_unit unit, sb_line *series, sb_error *error)
+{
+    char *line = sb_rows_next(rows);
+    if (!line) return sb_fail(error, SB_BAD_INPUT, "%.500s: is empty, expected rows of t, eta, u", rows->path);
+    series->channels = SB_TABLE_CHANNELS;
+    const bool geoclaw = *line == '#' && strstr(line, "gauge_id");
+    return (geoclaw ? read_geoclaw : read_csv)(rows, line, unit, series, error);
+}

@@ -1,0 +1,16 @@
+/* Reads tables of given water: CSV, and the gauges of GeoClaw. Private to src/sea. */
+#ifndef SB_SEA_TABLE_READ_H
+#define SB_SEA_TABLE_READ_H
+
+#include "scene/scene.h"
+#include "sea/line.h"
+#include "sea/rows.h"
+
+/* Channels of a table: surface above its datum in m, velocities in m/s. */
+enum { SB_TABLE_ETA, SB_TABLE_U, SB_TABLE_V, SB_TABLE_CHANNELS };
+
+/* Reads all rows of an open file in the unit that the scene names. SB_BAD_INPUT names the file, the line and what was
+   expected. */
+sb_status sb_table_read(sb_rows *rows, sb_given_unit unit, sb_line *series, sb_error *error);
+
+#endif

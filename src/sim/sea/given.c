@@ -1,0 +1,131 @@
+/* The given water in a strip: what the source says there, and the outgoing wave that passes. */
+#include "sim/sea/strip.h"
+
+#include <math.h>
+
+/* Least depth with which wave speeds are computed, in spacings; steepest ground that the water follows. */
+static const double SHALLOW = 1, STEEP = 1;
+
+/* Spacings beside the strip of a neighbouring side over which the weight grows. */
+static const double TAPER = 3;
+
+double sb_strip_free_part(const sb_sim *sim, const sb_strip_side *s, double along)
+{
+    const sb_model_sea *low = &sim->model->sea[2 * s->other], *high = &sim->model->sea[2 * s->other + 1];
+    const double length = sim->model->sea[s->side].pitch * (double)s->columns, within = TAPER * sim->scene->resolution;
+    double from = within;
+    if (sim->constant.dimension == 2) return 1;
+    if (low->along > 0) from = fmin(from, along - low->strip);
+    if (high->along > 0) from = fmin(from, length - high->strip - along);
+    return from <= 0 ? 0 : 0.5 * (1 - cos(M_PI * from / within));
+}
+
+/* Cell of a coordinate in cell lengths, and the fraction of the way to the centre of the next. */
+static size_t cell_of(double at, size_t cells, double *fraction)
+{
+    const double place = fmin(fmax(at - 0.5, 0), (double)(cells - 1));
+    const size_t cell = (size_t)fmin(floor(place), (double)(cells > 1 ? cells - 2 : 0));
+    *fraction = cells > 1 ? place - (double)cell : 0;
+    return cell;
+}
+
+/* The ground, and how it rises inwards and along the side. */
+static double ground_at(const sb_sim *sim, const sb_strip_side *s, double inwards, double along, double slope[2])
+{
+    const sb_model_sea *g = &sim->model->sea[s->side];
+    double a, b;
+    const size_t i = cell_of(inwards / g->step, g->across, &a), j = cell_of(along / g->pitch, g->along, &b);
+    const double *near = g->bed + j * g->across + i, *next = g->along > 1 ? near + g->across : near;
+    const double rise[2] = {near[1] - near[0], next[1] - next[0]};
+    const double low = near[0] + a * rise[0], high = next[0] + a * rise[1];
+    slope[0] = inwards > 0 ? ((1 - b) * rise[0] + b * rise[1]) / g->step : 0;
+    slope[1] = g->along > 1 ? (high - low) / g->pitch : 0;
+    return low + b * (high - low);
+}
+
+double sb_strip_bed(const sb_sim *sim, const sb_strip_side *s, double inwards, double along)
+{
+    double slope[2];
+    return ground_at(sim, s, inwards, along, slope);
+}
+
+/* The outgoing wave between two stations. In a corner of two seas there is none: what one side adds across it the other
+   would have to add along it. */
+static sb_outgoing outgoing_at(const sb_sim *sim, const sb_strip_side *s, double along)
+{
+    double f;
+    const double free = sb_strip_free_part(sim, s, along);
+    const size_t k = cell_of((along - s->station_from) / s->station_pitch, s->stations, &f);
+    const sb_outgoing *a = &s->station[k], *b = s->stations > 1 ? a + 1 : a;
+    return (sb_outgoing){.value = free * (a->value + f * (b->value - a->value)),
+                         .rate = free * (a->rate + f * (b->rate - a->rate)),
+                         .curvature = free * (a->curvature + f * (b->curvature - a->curvature))};
+}
+
+/* What the outgoing wave of a side adds at a place where long waves have this speed: m/s, and 1/s^n. */
+typedef struct passing {
+    double value, disperse; /* of u - 2 sqrt(g h), and the correction by dispersion */
+    double gradient;        /* du/dn, n inwards */
+    double curvature;       /* d2u/dn2 */
+} passing;
+
+/* The wave is measured farther inwards, so that it comes later here. */
+static passing passing_at(const sb_strip_side *s, const sb_outgoing *w, double inwards, double depth, double g)
+{
+    const double speed = sqrt(g * depth);
+    return (passing){.value = w->value - (s->strip - inwards) / speed * w->rate,
+                     .disperse = depth / (12 * g) * w->curvature,
+                     .gradient = 0.5 * w->rate / speed,
+                     .curvature = 0.5 * w->curvature / (g * depth)};
+}
+
+/* Velocity inwards at a height above the ground. */
+static double inward_velocity(const passing *p, double depth, double height)
+{
+    return 0.5 * (p->value + p->disperse) + p->curvature * (depth * depth / 6 - 0.5 * height * height);
+}
+
+/* Water follows the ground where it rises. */
+static double along_ground(const double velocity[3], const sb_strip_side *s, const double slope[2])
+{
+    const double sign = s->side % 2 ? -1 : 1;
+    return sign * velocity[s->axis] * fmin(fmax(slope[0], -STEEP), STEEP) +
+           velocity[s->other] * fmin(fmax(slope[1], -STEEP), STEEP);
+}
+
+void sb_strip_source(const sb_sim *sim, const sb_strip_side *s, double t, sb_vec3 at, double bed, sb_sea_point *out)
+{
+    if (sim->scene->given.source == SB_GIVEN_NONE || sb_scene_given_side(sim->scene, s->side))
+        sb_sea_at(sim->strip->sea, t, at.x, at.y, at.z, bed, out);
+    else
+        *out = (sb_sea_point){.surface = sim->scene->given.level};
+}
+
+void sb_strip_given(const sb_sim *sim, const sb_strip_side *s, double t, double inwards, double along, double z,
+                    sb_given *out)
+{
+    const double g = (double)sim->constant.gravity, least = SHALLOW * sim->scene->resolution;
+    double slope[2];
+    const double bed = ground_at(sim, s, inwards, along, slope);
+    sb_vec3 at = sb_model_sea_place(sim->model, s->side, inwards, along);
+    sb_sea_point in, top;
+    at.z = z;
+    sb_strip_source(sim, s, t, at, bed, &in);
+    at.z = in.surface;
+    sb_strip_source(sim, s, t, at, bed, &top);
+    const double depth_in = fmax(in.surface - bed, least);
+    const sb_outgoing w = outgoing_at(sim, s, along);
+    const passing p = passing_at(s, &w, inwards, depth_in, g);
+    const double speed = fmax(sqrt(g * depth_in) - 0.25 * (p.value - p.disperse), 0), depth = speed * speed / g;
+    const double height = fmin(fmax(z - bed, 0), depth);
+    *out = (sb_given){.velocity = {in.velocity[0], in.velocity[1], in.velocity[2]}, .bed = bed};
+    out->velocity[s->axis] += (s->side % 2 ? -1 : 1) * inward_velocity(&p, depth, height);
+    out->velocity[2] -= height * p.gradient;
+    out->velocity[2] += depth > 0 ? (1 - height / depth) * along_ground(out->velocity, s, slope) : 0;
+    if (sim->constant.dimension == 2) out->velocity[1] = 0;
+    out->surface = in.surface > bed || depth > 2 * least ? bed + depth : in.surface;
+    /* The vertical acceleration grows linearly with the height above the ground. */
+    const double lift = top.acceleration[2] - depth * p.curvature * sqrt(g * depth_in);
+    const double added = depth > 0 ? lift * (depth * depth - height * height) / (2 * depth) : 0;
+    out->pressure = fmax(sim->scene->fluid.density * (g * (depth - height) + added), 0);
+}

@@ -1,0 +1,260 @@
+/* What crosses the outer edge of a strip. Each column of the edge has rows of particles; a row counts the water that
+   has come in through it, in particles, less the particles that have come in, or plus those that have left. It lets one
+   in when half a particle is owed: water that turns round brings back a particle where one has left. */
+#include "base/memory.h"
+#include "sim/sea/strip.h"
+#include "sim/search/sort.h"
+#include "sim/step/ledger.h"
+
+#include <math.h>
+
+/* A column gets other rows when those that it has would be stretched or pressed together by more than these factors. */
+static const double STRETCHED = 1.6, PRESSED = 0.625;
+
+/* A row with half a particle owed lets one in where no other is nearer than NEAR, in spacings of the rows; with less,
+   where none is nearer than FAR. Water that has turned round does not come back as a lattice. */
+static const double NEAR = 0.7, FAR = 1.2;
+/* Layers at rest below which a column may fall dry. */
+static const int STILL_DEEP = 4;
+
+/* Spacings inwards from the edge in which particles are looked for. */
+static const double EDGE = 3;
+
+/* Gain and largest part of the correction by which the strip's content follows its volume, as a part of the inflow. */
+static const double CONTENT_GAIN = 2, CONTENT_MOST = 0.5;
+
+static double particle_volume(const sb_sim *sim)
+{
+    const double dr = sim->scene->resolution;
+    return sim->constant.dimension == 2 ? dr * dr : dr * dr * dr;
+}
+
+static double height_of(const sb_sim *sim, sb_record at)
+{
+    return sim->space.origin.z + at[2] * sim->space.quantum;
+}
+
+/* Counts the particles that are beyond the side: the sort will remove them. */
+static void count_leaving(sb_sim *sim, sb_strip_side *s)
+{
+    const size_t n = sim->state.n;
+    memset(s->left, 0, s->columns * s->rows * sizeof *s->left);
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) {
+        const sb_record at = sim->state.position[i];
+        if (sb_strip_inwards(s, at) >= 0) continue;
+        const double along = sb_strip_along(sim, s, at), z = height_of(sim, at);
+        const size_t column = sb_strip_column(sim, s, along);
+        sb_given given;
+        if (s->row_count[column] == 0) continue;
+        sb_strip_given(sim, s, sim->state.time, 0, along, z, &given);
+        const size_t row = sb_strip_row(z, given.bed, given.surface, s->row_count[column]);
+        __atomic_fetch_add(&s->left[column * s->rows + row], 1u, __ATOMIC_RELAXED);
+    }
+}
+
+/* Makes room for more particles. Returns 0, or -1 without memory. */
+static int make_room(sb_sim *sim, size_t particles)
+{
+    sb_state *state = &sim->state;
+    if (particles <= state->owned) return 0;
+    const size_t owned = particles + particles / 16 + 1024;
+    if (sb_state_grow(state, state->n, owned) != 0) return -1;
+    return sb_work_create(&sim->work, &sim->needs, state->owned, state->capacity); /* nothing in it is alive */
+}
+
+/* A row that lets a particle in: where, and with what. */
+typedef struct entry {
+    sb_vec3 at;
+    const sb_given *given;
+    float correction;
+} entry;
+
+static sb_status let_in(sb_sim *sim, const entry *e, sb_error *error)
+{
+    sb_state *state = &sim->state;
+    const size_t i = state->n;
+    if (state->next_id == UINT32_MAX)
+        return sb_fail(error, SB_FAILED, "step %llu: 2^32 particles have come in: no numbers are left",
+                       (unsigned long long)state->step + 1);
+    if (i + 1 >= (size_t)1 << SB_INDEX_BITS || make_room(sim, i + 1) != 0)
+        return sb_fail_memory(error, "particles that come in from the sea");
+    const double *v = e->given->velocity, mass = (double)sim->constant.mass;
+    state->position[i] = sb_space_record(&sim->space, e->at);
+    state->velocity[i] = (sb_f4){(float)v[0], (float)v[1], (float)v[2], (float)e->given->pressure};
+    state->id[i] = state->next_id++;
+    if (state->density_correction) state->density_correction[i] = e->correction;
+    state->n++;
+    const sb_f4 has = state->velocity[i];
+    const double square = sb_ledger_work((sb_f4){0}, has, has, has);
+    const double base = sim->model->min.z - sim->space.origin.z;
+    const double height = state->position[i][2] * sim->space.quantum - base;
+    const double energy = mass * (0.5 * square + (double)sim->constant.gravity * height);
+    state->ledger.sea += energy;
+    state->crossing.in++;
+    state->crossing.energy += energy;
+    state->crossing.momentum =
+        sb_madd(state->crossing.momentum, mass, sb_vec((double)has[0], (double)has[1], (double)has[2]));
+    return SB_OK;
+}
+
+/* Particles that the strip holds per column at rest of the given surface. */
+static double wanted_content(const sb_sim *sim, const sb_strip_side *s, double along)
+{
+    enum { SAMPLES = 4 };
+    const double width = sim->constant.dimension == 2 ? 1 : sim->model->sea[s->side].pitch;
+    double volume = 0;
+    for (int k = 0; k < SAMPLES; k++) {
+        sb_given given;
+        const double inwards = (k + 0.5) / SAMPLES * s->strip;
+        sb_strip_given(sim, s, sim->state.time, inwards, along, sim->scene->sea.level, &given);
+        volume += fmax(given.surface - given.bed, 0) * s->strip / SAMPLES * width;
+    }
+    return volume / particle_volume(sim);
+}
+
+static void count_content(sb_sim *sim, sb_strip_side *s)
+{
+    const size_t n = sim->state.n;
+    memset(s->content, 0, s->columns * sizeof *s->content);
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) {
+        const sb_record at = sim->state.position[i];
+        const int64_t inwards = sb_strip_inwards(s, at);
+        if (inwards < 0 || inwards >= s->width) continue;
+        __atomic_fetch_add(&s->content[sb_strip_column(sim, s, sb_strip_along(sim, s, at))], 1, __ATOMIC_RELAXED);
+    }
+}
+
+/* Particles of the strip near its outer edge, and those that have come in in this step: whose order has no meaning. */
+typedef struct edge {
+    sb_vec3 *at; /* m */
+    size_t count, capacity;
+} edge;
+
+static int add_to_edge(edge *e, sb_vec3 at)
+{
+    if (sb_grow((void **)&e->at, &e->capacity, e->count + 1, sizeof *e->at) != 0) return -1;
+    e->at[e->count++] = at;
+    return 0;
+}
+
+static int find_edge(const sb_sim *sim, const sb_strip_side *s, edge *e)
+{
+    const int64_t within = (int64_t)(EDGE * sim->scene->resolution / sim->space.quantum);
+    const size_t n = sim->state.n;
+    int failed = 0;
+#pragma omp parallel for schedule(static) reduction(|| : failed)
+    for (size_t i = 0; i < n; i++) {
+        const int64_t inwards = sb_strip_inwards(s, sim->state.position[i]);
+        if (inwards < 0 || inwards > within) continue;
+#pragma omp critical(sb_edge)
+        failed = add_to_edge(e, sb_space_position(&sim->space, sim->state.position[i])) != 0 || failed;
+    }
+    return failed ? -1 : 0;
+}
+
+/* Distance to the nearest particle at the edge, with the spacings of a column's rows along each axis as unit. */
+static double gap_at(const edge *e, sb_vec3 at, sb_vec3 spacing)
+{
+    double least = (double)INFINITY;
+    for (size_t k = 0; k < e->count; k++) {
+        const sb_vec3 d = sb_sub(e->at[k], at);
+        const double x = d.x / spacing.x, y = d.y / spacing.y, z = d.z / spacing.z;
+        least = fmin(least, x * x + y * y + z * z);
+    }
+    return sqrt(least);
+}
+
+/* Sets the number of rows for the present depth; what is owed is divided among them. */
+static void set_rows(const sb_sim *sim, sb_strip_side *s, size_t column, double depth)
+{
+    const double dr = sim->scene->resolution, has = s->row_count[column] * dr;
+    double *owed = s->owed + column * s->rows, sum = 0;
+    if (has > 0 && depth < STRETCHED * has && depth > PRESSED * has) return;
+    const int wanted = depth > 0.5 * dr ? (int)fmin(fmax(round(depth / dr), 1), (double)s->rows) : 0;
+    if (wanted == s->row_count[column]) return;
+    for (int k = 0; k < s->row_count[column]; k++) sum += owed[k];
+    for (size_t k = 0; k < s->rows; k++) owed[k] = k < (size_t)wanted ? sum / wanted : 0;
+    s->row_count[column] = wanted;
+}
+
+/* The density correction of a row: that of the same share of the depth at rest. */
+static float correction_of(const sb_strip_side *s, size_t column, size_t row)
+{
+    const int still = s->still_rows[column];
+    if (still == 0) return NAN;
+    return s->correction[column * s->rows + sb_strip_row((double)row + 0.5, 0, s->row_count[column], still)];
+}
+
+/* Refuses a source whose water falls dry where there are STILL_DEEP layers at rest. */
+static sb_status check_depth(const sb_sim *sim, const sb_strip_side *s, size_t column, sb_error *error)
+{
+    const double along = ((double)column + 0.5) * sim->model->sea[s->side].pitch, bed = sb_strip_bed(sim, s, 0, along);
+    sb_vec3 at = sb_model_sea_place(sim->model, s->side, 0, along);
+    sb_sea_point point;
+    at.z = bed;
+    if (s->still_rows[column] < STILL_DEEP) return SB_OK;
+    sb_strip_source(sim, s, sim->state.time, at, bed, &point);
+    if (point.surface - bed >= sim->scene->resolution) return SB_OK;
+    return sb_fail(
+        error, SB_FAILED,
+        "t = %g s: the given sea at %s falls to %g m at (%g, %g), over ground at %g m, expected at least one "
+        "spacing of water: the strip would be dry",
+        sim->state.time, sb_side_names[s->side], point.surface, at.x, at.y, bed);
+}
+
+/* Advances the rows of a column by a step and lets particles in. */
+static sb_status advance_column(sb_sim *sim, sb_strip_side *s, edge *near, size_t column, sb_error *error)
+{
+    const double pitch = sim->model->sea[s->side].pitch, along = ((double)column + 0.5) * pitch;
+    const double dt = sim->state.time_step, t = sim->state.time, sign = s->side % 2 ? -1 : 1;
+    const double width = sim->constant.dimension == 2 ? 1 : pitch;
+    sb_given given;
+    const sb_status deep = check_depth(sim, s, column, error);
+    if (deep != SB_OK) return deep;
+    sb_strip_given(sim, s, t, 0, along, sim->scene->sea.level, &given);
+    const double depth = given.surface - given.bed, bed = given.bed;
+    set_rows(sim, s, column, depth);
+    const int rows = s->row_count[column];
+    if (rows == 0) return SB_OK;
+    const double per_metre = depth / rows * width / particle_volume(sim); /* particles per metre of a row */
+    const double wanted = wanted_content(sim, s, along), lacks = wanted - (double)s->content[column];
+    const double more = wanted > 1 ? fmin(fmax(CONTENT_GAIN * lacks / wanted, -CONTENT_MOST), CONTENT_MOST) : 0;
+    const sb_vec3 spacing =
+        s->axis == 0 ? sb_vec(1 / per_metre, pitch, depth / rows) : sb_vec(pitch, 1 / per_metre, depth / rows);
+    for (int row = 0; row < rows; row++) {
+        double *owed = &s->owed[column * s->rows + (size_t)row];
+        const double z = bed + (row + 0.5) * depth / rows;
+        sb_strip_given(sim, s, t, 0, along, z, &given);
+        const double u = sign * given.velocity[s->axis];
+        *owed += u * dt * per_metre * (u > 0 ? 1 + more : 1) + s->left[column * s->rows + (size_t)row];
+        if (!(u > 0) || *owed < 0) continue;
+        entry e = {.given = &given, .correction = correction_of(s, column, (size_t)row)};
+        e.at = sb_model_sea_place(sim->model, s->side, fmin(fmax(*owed - 0.5, 0) / per_metre, u * dt), along);
+        e.at.z = z;
+        if (gap_at(near, e.at, spacing) < (*owed < 0.5 ? FAR : NEAR)) continue;
+        *owed -= 1;
+        if (add_to_edge(near, e.at) != 0) return sb_fail_memory(error, "particles at a side");
+        const sb_status status = let_in(sim, &e, error);
+        if (status != SB_OK) return status;
+    }
+    return SB_OK;
+}
+
+sb_status sb_stage_inflow(sb_sim *sim, sb_error *error)
+{
+    if (!sim->policy->runs) return SB_OK;
+    sb_status status = sb_strip_measure(sim, error);
+    for (size_t k = 0; k < sim->strip->count && status == SB_OK; k++) {
+        sb_strip_side *s = &sim->strip->side[k];
+        count_leaving(sim, s);
+        count_content(sim, s);
+        edge near = {0};
+        if (find_edge(sim, s, &near) != 0) status = sb_fail_memory(error, "particles at a side");
+        for (size_t column = 0; column < s->columns && status == SB_OK; column++)
+            status = advance_column(sim, s, &near, column, error);
+        sb_free(near.at);
+    }
+    return status;
+}

@@ -1,0 +1,174 @@
+/* Runs with sides of kind sea, as a user makes them: every source, a resumed run, and bad input. */
+#include "base/memory.h"
+#include "pair.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* 0.4 m of water, 4 m long. */
+#define HEAD                                                                                                           \
+    "title: t\ndimensions: 2\nresolution: 0.05\nduration: 4\nnumerics: {settle_steps: 5}\noutput: {plots: false}\n"    \
+    "measure: {interval: 0.05, gauges: [{name: g, x: 2.8}],\n"                                                         \
+    "          planes: [{name: line, from: [2], record: true, record_interval: 0.05}]}\n"
+#define SEA "water: {level: 0.4, seed: [2.5, 0.2]}\ndomain: {min: [0, 0], max: [4, 0.8], sides: {x_min: sea, x_max: sea}}\n"
+#define SOLITARY "sea: {source: theory, wave: solitary, height: 0.08, depth: 0.4}\n" /* at x = 0 after 2.5 s */
+
+/* A surface that rises by `height` in 2 s, as a long wave does that comes in, until `end`. */
+static void write_table(const char *name, double height, double end)
+{
+    char text[8000] = "t,eta,u\n";
+    size_t used = strlen(text);
+    for (double t = 0; t < end + 1e-9; t += 0.05) {
+        const double eta = t < 2 ? height * 0.5 * (1 - cos(M_PI * t / 2)) : height;
+        const double u = 2 * (sqrt(9.81 * (0.4 + eta)) - sqrt(9.81 * 0.4));
+        used += (size_t)snprintf(text + used, sizeof text - used, "%g,%.9g,%.9g\n", t, eta, u);
+    }
+    write_text(name, text);
+}
+
+/* The highest surface at the gauge above the still level, m. */
+static double highest_of(const char *run)
+{
+    char path[64];
+    snprintf(path, sizeof path, "%s/gauges.csv", run);
+    char *table = text_of(path);
+    double highest = -1;
+    for (const char *row = table; (row = strstr(row, ",g,")); row += 3) highest = fmax(highest, strtod(row + 3, NULL));
+    sb_free(table);
+    return highest;
+}
+
+/* Checks that `check` names the source, and runs. */
+static void check_and_run(const char *text, const char *about, const char *run)
+{
+    write_text("sea.yaml", text);
+    outcome o = RUN(0, "check", "sea.yaml");
+    assert_contains(o.out, about);
+    assert_contains(o.out, "sea at x_min");
+    if (strstr(o.out, "warning: sea")) fail_msg("%s", o.out);
+    outcome_free(&o);
+    RUN_AND_FORGET(0, "run", "sea.yaml", "--out", run, "--quiet", "--overwrite");
+}
+
+/* Eight layers of water: the bounds are wide. */
+static void every_source_comes_in(void **state)
+{
+    (void)state;
+    check_and_run(HEAD SEA SOLITARY, "a solitary wave of 0.08 m", "solitary");
+    assert_near(highest_of("solitary"), 0.08, 0.012);
+    assert_true(fabs(json_number_of("solitary/summary.json", "sea_J")) > 1);
+
+    check_and_run(HEAD "water: {level: 0.4, seed: [2.5, 0.2]}\n"
+                       "domain: {min: [2, 0], max: [4, 0.8], sides: {x_min: sea, x_max: sea}}\n"
+                       "sea: {source: record, file: solitary/record.csv, plane: line, sides: {x_max: still}}\n",
+                  "the incoming part of the record of plane line", "replay");
+    assert_near(highest_of("replay"), highest_of("solitary"), 0.008);
+
+    check_and_run(HEAD SEA "sea: {source: theory, wave: regular, height: 0.04, period: 2, depth: 0.4, ramp: 1}\n",
+                  "regular waves of 0.04 m and 2 s", "regular");
+    assert_near(highest_of("regular"), 0.02, 0.01);
+
+    write_table("table.csv", 0.05, 4);
+    check_and_run(HEAD SEA "sea: {source: table, file: table.csv, sides: {x_max: still}}\n", "a table of 1 point", "table");
+    assert_near(highest_of("table"), 0.05, 0.01);
+}
+
+static void a_sea_without_a_source_is_still(void **state)
+{
+    (void)state;
+    write_text("still.yaml", HEAD SEA);
+    RUN_AND_FORGET(0, "run", "still.yaml", "--out", "still", "--quiet", "--until", "0.5");
+    assert_true(highest_of("still") < 0.01);
+}
+
+static void a_run_resumes_with_the_same_table_only(void **state)
+{
+    (void)state;
+    static const char *const files[] = {"gauges.csv", "record.csv", "energy.csv", NULL};
+    write_text("sea.yaml", HEAD SEA "sea: {source: table, file: table.csv, sides: {x_max: still}}\n");
+    write_table("table.csv", 0.05, 4);
+    RUN_AND_FORGET(0, "run", "sea.yaml", "--out", "whole", "--quiet", "--until", "2");
+    RUN_AND_FORGET(0, "run", "sea.yaml", "--out", "parts", "--quiet", "--until", "1.2");
+    write_table("table.csv", 0.06, 4);
+    outcome o = RUN(1, "run", "sea.yaml", "--out", "parts", "--quiet", "--until", "2", "--resume");
+    assert_one_line(o.err, "of another scene");
+    assert_contains(o.err, "table.csv");
+    outcome_free(&o);
+    write_table("table.csv", 0.05, 4);
+    RUN_AND_FORGET(0, "run", "sea.yaml", "--out", "parts", "--quiet", "--until", "2", "--resume");
+    for (size_t f = 0; files[f]; f++) assert_same_file("whole", "parts", files[f]);
+}
+
+static void bad_input_gives_one_line(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *expected;
+    } cases[] = {
+        {HEAD SEA "sea: {source: table, file: missing.csv}\n", "missing.csv"},
+        {HEAD SEA "sea: {source: table, file: short.csv}\n", "ends at 3 s, expected 4 s or later"},
+        {HEAD SEA "sea: {source: record, file: short.csv, plane: line}\n", "header of a record"},
+        {HEAD SEA "sea: {source: theory, wave: solitary, height: 0.3, depth: 0.4, level: 0.6}\n", "above the domain"},
+        {HEAD "water: {level: 0.4, seed: [2.5, 0.2]}\ndomain: {min: [0, 0], max: [4, 0.8]}\n" SOLITARY,
+         "expected domain.sides with a side of kind sea"},
+        {HEAD "water: {level: 0.4, seed: [2.5, 0.2]}\ndomain: {min: [0, 0], max: [4, 0.8], sides: {x_min: sea}}\n"
+              "sea: {source: table, file: short.csv, sides: {x_min: still}}\n",
+         "that is not still"},
+        {HEAD "water: {level: 0.4, seed: [2.5, 0.2]}\ndomain: {min: [0, 0], max: [4, 0.8], sides: {x_min: sea}}\n"
+              "sea: {source: table, file: short.csv, sides: {x_max: still}}\n",
+         "sides.x_max: still, but domain.sides.x_max is not sea"},
+        {"duration: 4\ndomain: {min: [0, 0, -1], max: [8, 8, 1], sides: {x_min: sea}}\noffshore: {cell: 1, level: 0}\n",
+         "a side of kind sea needs particles"},
+    };
+    write_table("short.csv", 0.05, 3);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        write_text("bad.yaml", cases[k].text);
+        outcome o = RUN(1, "check", "bad.yaml");
+        assert_one_line(o.err, cases[k].expected);
+        outcome_free(&o);
+        o = RUN(1, "run", "bad.yaml", "--out", "bad", "--quiet");
+        assert_one_line(o.err, cases[k].expected);
+        outcome_free(&o);
+        assert_false(exists("bad/summary.json"));
+    }
+}
+
+/* What can run but is probably not meant. */
+static void doubtful_input_is_named(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *sea, *expected;
+    } cases[] = {
+        {"sea: {source: theory, wave: solitary, height: 0.08, depth: 0.4, start: -2.5}\n", "a bore enters at once"},
+        {"sea: {source: theory, wave: solitary, height: 0.08, depth: 0.4, level: 0.5}\n", "sea.start or sea.level"},
+        {"sea: {source: theory, wave: solitary, height: 0.08, depth: 0.8}\n", "expected the depth at the side"},
+        {"sea: {source: table, file: table.csv}\n", "such as {x_max: still}"},
+    };
+    char text[2000];
+    write_table("table.csv", 0.05, 4);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        snprintf(text, sizeof text, HEAD SEA "%s", cases[k].sea);
+        write_text("doubtful.yaml", text);
+        outcome o = RUN(0, "check", "doubtful.yaml");
+        assert_contains(o.out, cases[k].expected);
+        outcome_free(&o);
+        o = RUN(0, "run", "doubtful.yaml", "--out", "doubtful", "--quiet", "--overwrite", "--until", "0.01");
+        assert_contains(o.err, cases[k].expected);
+        outcome_free(&o);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_source_comes_in),
+        cmocka_unit_test(a_sea_without_a_source_is_still),
+        cmocka_unit_test(a_run_resumes_with_the_same_table_only),
+        cmocka_unit_test(bad_input_gives_one_line),
+        cmocka_unit_test(doubtful_input_is_named),
+    };
+    return cmocka_run_group_tests(tests, program_setup, program_teardown);
+}

@@ -1,0 +1,129 @@
+/* Incident and reflected waves at gauges over water whose surface is a known sum of both. */
+#include "../check.h"
+#include "base/memory.h"
+#include "fake_sim.h"
+#include "physics/dispersion.h"
+
+static const double period = 1.6, depth = 1;
+
+typedef struct flume {
+    fake_world world;
+    sb_vec3 *rest; /* positions in still water */
+    sb_gauge gauges[4];
+    sb_gauge_name names[4];
+    sb_reflection_set sets[2];
+} flume;
+
+/* 2D, 8 m long, 1 m deep, spacing 5 cm; gauges 0.3 to 1 m apart; windows of two periods, and one window. */
+static void make(flume *f)
+{
+    static const double places[] = {3, 3.3, 3.8, 4.4};
+    *f = (flume){0};
+    fake_world_make(&f->world, 2, 0.05, sb_vec(0, 0, 0), sb_vec(8, 0, 2));
+    fake_fill(&f->world, sb_vec(0, 0, 0), sb_vec(8, 0, depth), 0, 0, 0, 1);
+    f->rest = sb_alloc(f->world.sim.report.fluid_count, sizeof *f->rest);
+    for (size_t i = 0; i < f->world.sim.report.fluid_count; i++) f->rest[i] = f->world.sim.samples[i].position;
+    for (size_t g = 0; g < 4; g++) {
+        snprintf(f->gauges[g].name, SB_NAME_MAX, "g%zu", g);
+        snprintf(f->names[g].name, SB_NAME_MAX, "g%zu", g);
+        f->gauges[g].x = places[g];
+    }
+    f->sets[0] = (sb_reflection_set){"windows", 4, f->names, period, 2, depth, 0.5, 2 * period};
+    f->sets[1] = (sb_reflection_set){"whole", 3, f->names, period, 1, depth, 0, 1.5 * period};
+    sb_measure_settings *measure = &f->world.scene.measure;
+    measure->interval = 0.05;
+    measure->gauges = f->gauges;
+    measure->gauge_count = 4;
+    measure->reflections = f->sets;
+    measure->reflection_count = 2;
+    f->world.scene.duration = 8;
+}
+
+static void put_surface(flume *f, double incident, double reflected)
+{
+    const double w = 2 * M_PI / period, k = sb_wave_number(period, depth, 9.81), t = f->world.sim.report.time;
+    for (size_t i = 0; i < f->world.sim.report.fluid_count; i++) {
+        const sb_vec3 at = f->rest[i];
+        const double eta = incident * cos(k * at.x - w * t) + reflected * cos(k * at.x + w * t + 0.7);
+        f->world.sim.samples[i].position.z = at.z + eta;
+    }
+}
+
+/* Each window has a row per harmonic at its end. The gauges average over the kernel's width, which lowers the
+   amplitude by (k s)^2 2/3 = 0.4 %. */
+static void each_window_has_rows(void **state)
+{
+    (void)state;
+    flume f;
+    sb_measure *measure;
+    make(&f);
+    put_surface(&f, 0.1, 0.04);
+    assert_int_equal(sb_measure_create(&f.world.scene, &f.world.model, &f.world.sim, &measure, NULL), SB_OK);
+    size_t windows = 0, whole = 0, count;
+    for (int s = 1; s <= 160; s++) {
+        f.world.sim.report.time = 0.05 * s;
+        put_surface(&f, 0.1, 0.04);
+        assert_int_equal(sb_measure_step(measure, &f.world.sim, NULL), SB_OK);
+        const sb_measure_records *records = sb_measure_latest(measure);
+        for (size_t i = 0; i < records->reflection_count; i++) {
+            const sb_reflection_record *row = &records->reflections[i];
+            whole += row->set == 1;
+            if (row->set == 0) assert_near(row->time, 0.5 + 3.2 * (double)(windows++ / 2 + 1), 1e-9);
+            if (row->harmonic == 1) {
+                assert_near(row->incident, 0.1, 0.01 * 0.1);
+                assert_near(row->reflected, 0.04, 0.01 * 0.1);
+                assert_near(row->wavelength, 2 * M_PI / sb_wave_number(period, depth, 9.81), 1e-12);
+                assert_true(row->misfit < 0.01 * 0.1 && row->separation > 0.5);
+            } else {
+                assert_true(row->incident < 0.01 * 0.1 && row->period == period / 2);
+            }
+        }
+    }
+    assert_int_equal(windows, 4);
+    assert_int_equal(whole, 3); /* 2.4, 4.8, 7.2 s: windows of one and a half periods */
+    const sb_reflection_record *rows;
+    assert_int_equal(sb_measure_reflections(measure, &rows, &count, NULL), SB_OK);
+    assert_int_equal(count, 3);
+    assert_true(rows[0].from == 0.5 && rows[1].harmonic == 2 && rows[2].set == 1 && rows[2].time == 8);
+    assert_near(rows[2].reflected, 0.04, 0.01 * 0.1);
+    sb_measure_destroy(measure);
+    sb_free(f.rest);
+    fake_world_free(&f.world);
+}
+
+/* A gauge outside of the water is left out; with one gauge left there is no split. */
+static void dry_gauges_are_left_out(void **state)
+{
+    (void)state;
+    for (int dry = 1; dry <= 3; dry++) {
+        flume f;
+        sb_measure *measure;
+        make(&f);
+        f.world.scene.measure.reflection_count = 1;
+        for (int g = 0; g < dry; g++) f.gauges[g].x = 20 + g; /* beyond the water */
+        put_surface(&f, 0.1, 0.04);
+        assert_int_equal(sb_measure_create(&f.world.scene, &f.world.model, &f.world.sim, &measure, NULL), SB_OK);
+        for (int s = 1; s <= 75; s++) {
+            f.world.sim.report.time = 0.05 * s;
+            put_surface(&f, 0.1, 0.04);
+            assert_int_equal(sb_measure_step(measure, &f.world.sim, NULL), SB_OK);
+        }
+        size_t count;
+        const sb_reflection_record *row;
+        assert_int_equal(sb_measure_reflections(measure, &row, &count, NULL), SB_OK);
+        assert_true(row->period == period);
+        if (dry == 3) assert_true(isnan(row->incident) && isnan(row->reflected));
+        sb_measure_destroy(measure);
+        sb_free(f.rest);
+        fake_world_free(&f.world);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_window_has_rows),
+        cmocka_unit_test(dry_gauges_are_left_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
