@@ -6,6 +6,7 @@
 #include "output/maps.h"
 #include "output/particle_format.h"
 #include "render/image.h"
+#include "report/report.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -42,6 +43,7 @@ static const struct {
     {TOP, "run", NULL, ".jsonl", SB_RUN_LOG_START, KEPT | GROWS},
     {TOP, "scene", NULL, ".yaml", SB_SCENE_WRITTEN, KEPT},
     {TOP, "summary", NULL, ".json", "{", 0},
+    {TOP, "report", NULL, ".html", SB_REPORT_START, 0},
     {TOP, "control", NULL, ".token", "", 0},
     {TOP, NULL, sb_csv_name, ".csv", "time_s,", GROWS},
     {CHECKPOINTS, SB_CHECKPOINT_SETTLING, NULL, SB_CHECKPOINT_SUFFIX, SB_CHECKPOINT_KIND, 0},
