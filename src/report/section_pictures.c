@@ -84,7 +84,7 @@ static void put_picture(FILE *out, const sb_report_page *page, const pictures *l
                     "<img width=\"%d\" height=\"%d\" alt=\"Picture of camera %s at %g s\" src=\"data:image/png;base64,",
                     small.width, small.height, list->camera, time);
         sb_html_base64(out, bytes, size);
-        sb_html_put(out, "\"><figcaption>t = %g s, camera %s</figcaption>", time, list->camera);
+        sb_html_put(out, "\"><figcaption>t ≈ %g s, camera %s</figcaption>", time, list->camera);
     } else
         sb_html_put(out, "<p class=\"missing\">%s</p>", error.text);
     fputs("</figure>\n", out);
