@@ -36,21 +36,57 @@ static sb_status count_kept(const sb_report_page *page, sb_report_table t, size_
     return SB_OK;
 }
 
+static size_t bytes_of(const sb_report_page *page, sb_report_table t)
+{
+    return page->shares[t].rows * page->run->tables[t].columns * CELL_BYTES;
+}
+
+/* What some tables do not need of their budgets goes to the others, in the order of the page. */
+static void divide_budget(const sb_report_page *page, size_t granted[SB_REPORT_PLOTS])
+{
+    size_t rest = 0;
+    for (size_t t = 0; t < SB_REPORT_PLOTS; t++) {
+        const size_t needed = bytes_of(page, t);
+        granted[t] = needed < budget[t] ? needed : budget[t];
+        rest += budget[t] - granted[t];
+    }
+    for (size_t t = 0; t < SB_REPORT_PLOTS; t++) {
+        const size_t wanted = bytes_of(page, t) - granted[t], more = wanted < rest ? wanted : rest;
+        granted[t] += more;
+        rest -= more;
+    }
+}
+
+/* Thins until the rows fit into the bytes. Each attempt has at most nine tenths of the pixels of the one before. */
+static sb_status fit(sb_report_page *page, sb_report_table t, size_t bytes, sb_error *error)
+{
+    sb_report_share *share = &page->shares[t];
+    sb_status status = SB_OK;
+    if (share->rows == 0) return SB_OK;
+    const size_t most = bytes / (CELL_BYTES * page->run->tables[t].columns);
+    for (size_t pixels = PIXELS; share->kept > most && share->pixels != PIXELS_LEAST && status == SB_OK;) {
+        share->pixels = pixels;
+        status = count_kept(page, t, pixels, &share->kept, error);
+        const size_t fitting = pixels * most / share->kept, next = pixels * 9 / 10;
+        pixels = fitting < next ? fitting : next;
+        if (pixels < PIXELS_LEAST) pixels = PIXELS_LEAST;
+    }
+    return status;
+}
+
 sb_status sb_section_data_plan(sb_report_page *page, sb_error *error)
 {
+    size_t granted[SB_REPORT_PLOTS];
     sb_status status = SB_OK;
-    for (size_t t = 0; t < SB_REPORT_PLOTS && status == SB_OK; t++) {
-        const sb_series_table *table = &page->run->tables[t];
+    for (size_t t = 0; t < SB_REPORT_PLOTS; t++) {
+        const size_t count = page->run->tables[t].count;
         sb_report_share *share = &page->shares[t];
-        *share = (sb_report_share){.series = table->count < SERIES_MAX ? table->count : SERIES_MAX};
+        *share = (sb_report_share){.series = count < SERIES_MAX ? count : SERIES_MAX};
         for (size_t i = 0; i < share->series; i++) share->rows += sb_report_series(page, t, i)->rows;
         share->kept = share->rows;
-        const size_t most = budget[t] / (CELL_BYTES * (table->columns ? table->columns : 1));
-        for (size_t pixels = PIXELS; share->kept > most && pixels >= PIXELS_LEAST && status == SB_OK; pixels /= 2) {
-            share->pixels = pixels;
-            status = count_kept(page, t, pixels, &share->kept, error);
-        }
     }
+    divide_budget(page, granted);
+    for (size_t t = 0; t < SB_REPORT_PLOTS && status == SB_OK; t++) status = fit(page, t, granted[t], error);
     return status;
 }
 
