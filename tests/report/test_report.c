@@ -151,6 +151,27 @@ static void a_long_run(void **state)
     sb_free(text);
 }
 
+/* Each allocation in turn fails: the page is written without a part, or not at all. */
+static void memory_that_runs_out(void **state)
+{
+    (void)state;
+    make_run();
+    const sb_report_options options = {0};
+    long n = 0;
+    for (bool pending = false; !pending;) {
+        sb_error error = {0};
+        unlink(in_folder("page.html"));
+        sb_memory_fail_at(++n);
+        const sb_status status = sb_report_write(in_folder("run"), in_folder("page.html"), &options, NULL, &error);
+        pending = sb_memory_fail_pending();
+        sb_memory_fail_at(0);
+        assert_int_equal(status == SB_OK, access(in_folder("page.html"), F_OK) == 0);
+        assert_int_equal(status == SB_OK, *error.text == '\0');
+        assert_int_equal(access(in_folder("page.html.tmp"), F_OK), -1);
+    }
+    assert_true(n > 20);
+}
+
 static void figures(void **state)
 {
     (void)state;
@@ -201,6 +222,7 @@ int main(void)
         cmocka_unit_test(folders_that_are_no_runs),
         cmocka_unit_test(without_dygraphs),
         cmocka_unit_test(a_long_run),
+        cmocka_unit_test(memory_that_runs_out),
         cmocka_unit_test(figures),
         cmocka_unit_test(base64),
     };
