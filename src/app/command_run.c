@@ -93,6 +93,8 @@ int sb_command_run(int count, char **arguments)
                                             .profile = options.profile,
                                             .live_port = options.live_port,
                                             .live_address = options.live_address,
+                                            .argument_count = count + 1,
+                                            .arguments = arguments - 1, /* with the name of the command */
                                             .thread_remains = &thread_remains};
         status = (scene.offshore.present ? sb_grid_run : sb_run)(&scene, out, &run_options, &error);
     }

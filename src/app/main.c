@@ -24,6 +24,7 @@ static const struct {
     {"sample", "write a scene's boundary and fluid particles for ParaView", sb_command_sample, false},
     {"render", "draw pictures from a finished run's particle files, or from a recorded stream", sb_command_render,
      false},
+    {"report", "write one HTML page about a run: pictures, loads, water, inundation, trust", sb_command_report, false},
     {"replay", "publish a recorded stream again", sb_command_replay, false},
     {"list", "list the available kernels, wave makers, solvers and presets", sb_command_list, true},
 };

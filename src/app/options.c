@@ -35,6 +35,7 @@ static const flag flags[] = {
     {"--speed", SB_OPT_SPEED, VALUE},
     {"--control", SB_OPT_CONTROL, NO_VALUE},
     {"--live", SB_OPT_LIVE, MAYBE_VALUE},
+    {"--title", SB_OPT_TITLE, VALUE},
 };
 
 static sb_status add_override(sb_options *options, const char *text, sb_error *error)
@@ -76,6 +77,9 @@ static sb_status take(sb_options *options, unsigned bit, const char *value, sb_e
         break;
     case SB_OPT_PRESET:
         options->preset = value;
+        break;
+    case SB_OPT_TITLE:
+        options->title = value;
         break;
     case SB_OPT_URL:
         options->url = value;

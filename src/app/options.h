@@ -14,6 +14,7 @@ typedef struct sb_options {
     const char *out;        /* --out */
     const char *preset;     /* --preset */
     const char *camera;     /* --camera */
+    const char *title;      /* --title */
     const char *url;        /* --url */
     const char *prefix;     /* --prefix */
     double speed;           /* --speed; 1 if it is not given */
@@ -44,7 +45,8 @@ enum {
     SB_OPT_PREFIX = 8192,
     SB_OPT_SPEED = 16384,
     SB_OPT_CONTROL = 32768,
-    SB_OPT_LIVE = 65536
+    SB_OPT_LIVE = 65536,
+    SB_OPT_TITLE = 131072
 };
 
 /* Parses the arguments after the command's name. what: the name of the positional argument in messages. */

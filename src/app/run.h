@@ -16,6 +16,8 @@ typedef struct sb_run_options {
     bool profile;     /* prints the times of the stages at the end */
     int live_port;    /* of the page for browsers; 0: none */
     const char *live_address; /* on which it is; empty: loopback */
+    int argument_count;       /* of the command line, from the command's name on; for the log; 0: unknown */
+    char *const *arguments;
     bool *thread_remains; /* set when a thread without progress still exists at the end: end the process by _exit, and
                    free nothing that the run was given; may be NULL */
 } sb_run_options;

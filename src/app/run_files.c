@@ -7,6 +7,7 @@
 #include "output/particle_format.h"
 #include "output/vti.h"
 #include "render/image.h"
+#include "report/report.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -44,6 +45,7 @@ static const struct {
     {TOP, "run", NULL, ".jsonl", SB_RUN_LOG_START, KEPT | GROWS},
     {TOP, "scene", NULL, ".yaml", SB_SCENE_WRITTEN, KEPT},
     {TOP, "summary", NULL, ".json", "{", 0},
+    {TOP, "report", NULL, ".html", SB_REPORT_START, 0},
     {TOP, "control", NULL, ".token", "", 0},
     {TOP, NULL, sb_csv_name, ".csv", "time_s,", GROWS},
     {TOP, SB_VTI_LIST, NULL, ".pvd", "<?xml", 0},

@@ -15,6 +15,7 @@
 #include <omp.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 static sb_status write_scene(const run *r, sb_error *error)
 {
@@ -222,6 +223,14 @@ static void note_start(run *r)
     r->setup_seconds = sb_progress_wall(&r->progress);
 }
 
+/* The command line as it was given, so that a report can show it. */
+static void note_arguments(run *r, const sb_run_options *options)
+{
+    char folder[SB_PATH_MAX];
+    if (options->argument_count > 0)
+        sb_runlog_arguments(r->log, getcwd(folder, sizeof folder), options->argument_count, options->arguments);
+}
+
 static void watch_settling(void *context, int done, int most, double speed)
 {
     run *r = context;
@@ -342,6 +351,7 @@ sb_status sb_run_start(run *r, const sb_run_options *options, sb_error *error)
     if (status == SB_OK && from != CHECKPOINT) status = start_consumers(r, error);
     if (status != SB_OK) return give_up(r, status);
     sb_model_free_start(&r->model);
+    note_arguments(r, options);
     if (from == CHECKPOINT) return resume_run(r, error);
     status = write_running(r, error);
     if (status != SB_OK) return status;

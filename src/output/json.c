@@ -3,9 +3,9 @@
 #include <assert.h>
 #include <inttypes.h>
 
-/* Length of the valid UTF-8 sequence at text; 0 if it is not valid. */
-static size_t sequence_length(const unsigned char *text)
+size_t sb_utf8_length(const char *at)
 {
+    const unsigned char *text = (const unsigned char *)at;
     size_t length = text[0] < 0x80   ? 1
                     : text[0] < 0xc2 ? 0
                     : text[0] < 0xe0 ? 2
@@ -24,7 +24,7 @@ static void put_text(FILE *stream, const char *text)
 {
     fputc('"', stream);
     for (const unsigned char *at = (const unsigned char *)text; *at;) {
-        size_t length = sequence_length(at);
+        size_t length = sb_utf8_length((const char *)at);
         if (length == 0)
             fputs("\\ufffd", stream);
         else if (*at == '"' || *at == '\\')

@@ -20,6 +20,9 @@ typedef struct sb_json {
     char bracket[SB_JSON_DEPTH];
 } sb_json;
 
+/* Length of the valid UTF-8 sequence at text; 0 if it is not valid. */
+size_t sb_utf8_length(const char *text);
+
 void sb_json_begin(sb_json *json, FILE *stream, bool pretty);
 /* bracket: '{' or '['. */
 void sb_json_open(sb_json *json, const char *key, char bracket);

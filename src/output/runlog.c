@@ -203,6 +203,18 @@ void sb_runlog_start(sb_runlog *log, const sb_scene *scene, const sb_model *mode
     end(log, &json);
 }
 
+void sb_runlog_arguments(sb_runlog *log, const char *folder, int count, char *const *arguments)
+{
+    if (!log) return;
+    sb_json json;
+    begin(log, &json, "arguments");
+    sb_json_text(&json, "folder", folder);
+    sb_json_open(&json, "arguments", '[');
+    for (int i = 0; i < count; i++) sb_json_text(&json, NULL, arguments[i]);
+    sb_json_close(&json);
+    end(log, &json);
+}
+
 static void put_line(sb_runlog *log, const char *event, const char *text)
 {
     sb_json json;

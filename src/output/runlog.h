@@ -32,6 +32,9 @@ sb_status sb_runlog_close(sb_runlog *log, sb_error *error);
 /* "start": version, scene, threads, particles, memory, numerics chosen, the model's warnings. */
 void sb_runlog_start(sb_runlog *log, const sb_scene *scene, const sb_model *model, int threads, size_t bytes);
 
+/* "arguments": the folder in which the program was started, and its arguments from the command's name on. */
+void sb_runlog_arguments(sb_runlog *log, const char *folder, int count, char *const *arguments);
+
 /* "skipped", one line for each entry of the list. */
 void sb_runlog_skipped(sb_runlog *log, const sb_skipped *list);
 /* "saved": the sum of these savings. */

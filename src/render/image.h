@@ -25,6 +25,17 @@ void sb_image_free(sb_image *image);
    "Software" contains "shorebreak". */
 sb_status sb_png_write(const char *path, const sb_image *image, sb_error *error);
 
+/* Reads a PNG file of at most SB_IMAGE_SIDE_MAX px in each direction; transparent pixels become white. SB_BAD_INPUT
+   names the file and the reason; *image is then unchanged. */
+sb_status sb_png_read(const char *path, sb_image *image, sb_error *error);
+
+/* Writes the picture into memory, compressed as small as libpng does it by default. Free *bytes with sb_free. */
+sb_status sb_png_encode(const sb_image *image, unsigned char **bytes, size_t *size, sb_error *error);
+
+/* Makes `small` of `width` px, and of the height with the same ratio: each of its pixels is the mean, in linear light,
+   of the pixels that it covers. A width that is not smaller gives a copy. */
+sb_status sb_image_shrink(const sb_image *image, int width, sb_image *small, sb_error *error);
+
 /* Returns whether `start`, the first SB_PNG_MARK_WITHIN bytes of a file, belongs to a picture from sb_png_write. */
 enum { SB_PNG_MARK_WITHIN = 128 };
 bool sb_png_is_own(const char *start, size_t length);

@@ -1,4 +1,4 @@
-/* Writes pictures as PNG. No other file calls libpng. */
+/* Writes pictures as PNG files. Only this file and png_memory.c call libpng. */
 #include "render/image.h"
 
 #include "base/file.h"

@@ -1,0 +1,103 @@
+/* Water levels at gauges, run-up, volumes through planes and pressures at probes: greatest values, and plots. */
+#include "report/sections.h"
+
+#include "report/html.h"
+
+#include <math.h>
+#include <stdint.h>
+
+/* The greatest value of a column and its row; SIZE_MAX: there is none. */
+static size_t greatest_row(const sb_series_table *table, const sb_series *series, size_t column)
+{
+    size_t best = SIZE_MAX;
+    for (size_t row = 0; row < series->rows; row++) {
+        const double value = sb_series_table_value(table, series, row, column);
+        if (isnan(value)) continue;
+        if (best == SIZE_MAX || value > sb_series_table_value(table, series, best, column)) best = row;
+    }
+    return best;
+}
+
+static void put_value(FILE *out, const sb_series_table *table, const sb_series *series, size_t row, size_t column)
+{
+    sb_html_put(out, "<td>%g</td>", row == SIZE_MAX ? (double)NAN : sb_series_table_value(table, series, row, column));
+}
+
+static void put_csv(FILE *out, const char *table, const sb_series *series)
+{
+    sb_html_put(
+        out,
+        "<td class=\"csv\"><a class=\"csv\" data-table=\"%s\" data-name=\"%s\" href=\"#water\">CSV</a></td></tr>\n",
+        table, series->name);
+}
+
+/* The columns of a table that the page shows, by its greatest values. */
+typedef struct shown {
+    sb_report_table table;
+    const char *title, *item, *caption;
+    struct {
+        const char *head;
+        size_t column; /* 0: the time */
+        size_t of;     /* at the row with the greatest value of this column */
+    } cells[4];
+} shown;
+
+static const shown all[] = {
+    {SB_REPORT_GAUGES,
+     "Water level at gauges",
+     "Gauge",
+     "Elevation of the water surface above the still-water level, or absolute where the scene has no level. A gap: the "
+     "place is dry.",
+     {{"Highest above still water, m", 1, 1}, {"Highest, z in m", 2, 2}, {"at, s", 0, 2}}},
+    {SB_REPORT_RUNUP,
+     "Run-up",
+     "Line",
+     "Highest point of the connected water along the line, z in m.",
+     {{"Highest run-up, z in m", 3, 3},
+      {"at, s", 0, 3},
+      {"at x, m", 1, 3},
+      {"Farthest front along the line, m", 4, 4}}},
+    {SB_REPORT_OVERTOPPING,
+     "Overtopping",
+     "Plane",
+     "Net volume through the plane since the start.",
+     {{"Greatest net volume, m³", 1, 1}, {"Greatest flux, m³/s", 2, 2}, {"at, s", 0, 2}}},
+    {SB_REPORT_PROBES,
+     "Pressure at probes",
+     "Probe",
+     "Pressure. A gap: the place is dry.",
+     {{"Greatest pressure, Pa", 4, 4}, {"at, s", 0, 4}}},
+};
+
+static void put_shown(FILE *out, const sb_report_page *page, const shown *s)
+{
+    const sb_series_table *table = &page->run->tables[s->table];
+    const char *name = sb_report_table_names[s->table];
+    if (table->count == 0) return;
+    const bool flat = s->table == SB_REPORT_OVERTOPPING && page->run->flat;
+    sb_html_put(out, "<h3>%s%s</h3>", s->title, flat ? ", per metre of width" : "");
+    sb_report_plot(out, page, s->table, s->caption);
+    sb_html_put(out, "<div class=\"wide\"><table><thead><tr><th>%s</th>", s->item);
+    for (size_t c = 0; c < 4 && s->cells[c].head; c++) sb_html_put(out, "<th>%s</th>", s->cells[c].head);
+    fputs("<th class=\"csv\">Series</th></tr></thead><tbody>\n", out);
+    for (size_t i = 0; i < page->shares[s->table].series; i++) {
+        const sb_series *series = &table->series[i];
+        sb_html_put(out, "<tr><th scope=\"row\">%s</th>", series->name);
+        for (size_t c = 0; c < 4 && s->cells[c].head; c++)
+            put_value(out, table, series, greatest_row(table, series, s->cells[c].of), s->cells[c].column);
+        put_csv(out, name, series);
+    }
+    fputs("</tbody></table></div>\n", out);
+}
+
+void sb_section_water(FILE *out, const sb_report_page *page)
+{
+    fputs("<section id=\"water\"><h2>Water</h2>\n", out);
+    size_t shown_tables = 0;
+    for (size_t s = 0; s < sizeof all / sizeof *all; s++) {
+        shown_tables += page->run->tables[all[s].table].count > 0;
+        put_shown(out, page, &all[s]);
+    }
+    if (shown_tables == 0) fputs("<p class=\"note\">The run has no gauges, lines, planes or probes.</p>", out);
+    fputs("</section>\n", out);
+}
