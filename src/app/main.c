@@ -24,6 +24,7 @@ static const struct {
     {"sample", "write a scene's boundary and fluid particles for ParaView", sb_command_sample, false},
     {"render", "draw pictures from a finished run's particle files, or from a recorded stream", sb_command_render,
      false},
+    {"surface", "write the surface of the water of a run's particle files as meshes", sb_command_surface, false},
     {"replay", "publish a recorded stream again", sb_command_replay, false},
     {"list", "list the available kernels, wave makers, solvers and presets", sb_command_list, true},
 };
