@@ -111,7 +111,7 @@ static sb_status list_blocks(sb_blocks *b, const entry *entries, sb_error *error
 
 static void sort_particles(const sb_frame *frame, sb_blocks *b, const entry *entries)
 {
-    const size_t per_block = (size_t)(b->bins * b->bins * b->bins);
+    const size_t per_block = b->all_bins;
     size_t next = 0;
     for (size_t block = 0; block < b->count; block++)
         for (size_t bin = 0; bin < per_block; bin++) {
@@ -137,7 +137,7 @@ static sb_status allocate(sb_blocks *b, sb_error *error)
     for (int a = 0; a < 3; a++) b->place[a] = sb_alloc_untouched(n, sizeof(float));
     b->weight = sb_alloc_untouched(n, sizeof(float));
     b->source = sb_alloc_untouched(n, sizeof *b->source);
-    b->bin_first = sb_alloc_untouched(b->count * (size_t)(b->bins * b->bins * b->bins) + 1, sizeof *b->bin_first);
+    b->bin_first = sb_alloc_untouched(b->count * b->all_bins + 1, sizeof *b->bin_first);
     return b->place[0] && b->place[1] && b->place[2] && b->weight && b->source && b->bin_first
                ? SB_OK
                : sb_fail_memory(error, "the particles of a surface");
@@ -148,6 +148,7 @@ sb_status sb_blocks_build(const sb_frame *frame, double cell, double reach, sb_b
     const double bins = floor(SB_BLOCK_SIDE * cell / reach);
     sb_blocks b = {.cell = cell * frame->spacing, .reach = (float)(reach / cell), .particles = frame->count};
     b.bins = bins < BINS_MOST ? (int)bins : BINS_MOST;
+    b.all_bins = (size_t)b.bins * (size_t)b.bins * (size_t)b.bins;
     *blocks = (sb_blocks){0};
     if (frame->count == 0 || frame->count > UINT32_MAX)
         return sb_fail(error, SB_BAD_INPUT, "%zu particles, expected 1 to %u", frame->count, UINT32_MAX);
@@ -193,7 +194,7 @@ int64_t sb_blocks_at(const sb_blocks *blocks, size_t block, int x, int y, int z)
 
 bool sb_blocks_has_particles(const sb_blocks *blocks, size_t block)
 {
-    const size_t bins = (size_t)(blocks->bins * blocks->bins * blocks->bins);
+    const size_t bins = blocks->all_bins;
     return blocks->bin_first[block * bins] < blocks->bin_first[(block + 1) * bins];
 }
 
@@ -243,9 +244,8 @@ static size_t list_bins(const sb_blocks *b, size_t block, int wide, bin *bins)
             bins[i].shift[a] = (float)(side[a] * SB_BLOCK_SIDE);
         }
         const int64_t in = around[13 + side[0] + 3 * side[1] + 9 * side[2]];
-        const size_t index = (size_t)((inner[2] * b->bins + inner[1]) * b->bins + inner[0]);
-        const uint32_t *first =
-            b->bin_first + (in < 0 ? 0 : (size_t)in * (size_t)(b->bins * b->bins * b->bins) + index);
+        const int index = (inner[2] * b->bins + inner[1]) * b->bins + inner[0];
+        const uint32_t *first = b->bin_first + (in < 0 ? 0 : (size_t)in * b->all_bins + (size_t)index);
         bins[i].first = in < 0 ? 0 : first[0];
         bins[i].end = in < 0 ? 0 : first[1];
         total += bins[i].end - bins[i].first;

@@ -14,6 +14,7 @@ typedef struct sb_blocks {
     double start[3]; /* m relative to the frame's origin: node 0 of a block with the key 0 */
     float reach;     /* cells: the support radius of the kernel */
     int bins;        /* of a block along an axis; a bin is at least `reach` wide */
+    size_t all_bins; /* bins^3 */
     size_t count;    /* of blocks: those with particles, and all their neighbours */
     uint64_t *keys;  /* ascending: z, y, x of the block */
     size_t particles;

@@ -122,7 +122,7 @@ static float interpolate(const march *m, const sb_near *near, const float at[3],
         const uint32_t end = near->first[middle + 2];
         for (uint32_t j = near->first[middle - 1]; j < end; j += 8) {
             /* Values from `end` on have a weight of 0, but may not be finite. */
-            const sb_eight_ints within = sb_eight_before((int32_t)(end - j));
+            const sb_eight_ints within = sb_eight_before(end - j);
             const sb_eight_floats kernel = sb_eight_kernel(near, j, end, at, scale);
             const sb_eight_floats w = kernel * (sb_eight_floats)((sb_eight_ints)sb_eight_at(near->weight + j) & within);
             for (int c = 0; c < 4; c++)
