@@ -3,6 +3,7 @@
 #include "app/team.h"
 #include "base/memory.h"
 #include "base/nearest.h"
+#include "surface/make.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -36,6 +37,10 @@ static const flag flags[] = {
     {"--control", SB_OPT_CONTROL, NO_VALUE},
     {"--live", SB_OPT_LIVE, MAYBE_VALUE},
     {"--title", SB_OPT_TITLE, VALUE},
+    {"--format", SB_OPT_FORMAT, VALUE},
+    {"--times", SB_OPT_TIMES, VALUE},
+    {"--cell", SB_OPT_CELL, VALUE},
+    {"--smooth", SB_OPT_SMOOTH, VALUE},
 };
 
 static sb_status add_override(sb_options *options, const char *text, sb_error *error)
@@ -68,6 +73,27 @@ static sb_status take_live(sb_options *options, const char *value, sb_error *err
     return add_override(options, "stream.enabled=true", error);
 }
 
+static sb_status take_cell(sb_options *options, const char *value, sb_error *error)
+{
+    char *end;
+    options->cell = strtod(value, &end);
+    if (end != value && !*end && options->cell >= SB_WATER_MESH_CELL_LEAST && options->cell <= SB_WATER_MESH_CELL_MOST)
+        return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT, "--cell %.100s: expected %g to %g particle spacings", value,
+                   SB_WATER_MESH_CELL_LEAST, SB_WATER_MESH_CELL_MOST);
+}
+
+static sb_status take_smooth(sb_options *options, const char *value, sb_error *error)
+{
+    char *end;
+    const long rounds = strtol(value, &end, 10);
+    if (end == value || *end || rounds < 0 || rounds > SB_WATER_MESH_SMOOTH_MOST)
+        return sb_fail(error, SB_BAD_INPUT, "--smooth %.100s: expected 0 to %d rounds", value,
+                       SB_WATER_MESH_SMOOTH_MOST);
+    options->smooth = (int)rounds;
+    return SB_OK;
+}
+
 static sb_status take(sb_options *options, unsigned bit, const char *value, sb_error *error)
 {
     char *end = NULL, duration[64];
@@ -81,6 +107,16 @@ static sb_status take(sb_options *options, unsigned bit, const char *value, sb_e
     case SB_OPT_TITLE:
         options->title = value;
         break;
+    case SB_OPT_FORMAT:
+        options->format = value;
+        break;
+    case SB_OPT_TIMES:
+        options->times = value;
+        break;
+    case SB_OPT_CELL:
+        return take_cell(options, value, error);
+    case SB_OPT_SMOOTH:
+        return take_smooth(options, value, error);
     case SB_OPT_URL:
         options->url = value;
         break;
@@ -163,7 +199,7 @@ static sb_status refuse_flag(const char *argument, unsigned accepted, sb_error *
 sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const char *what, sb_options *options,
                            sb_error *error)
 {
-    *options = (sb_options){.speed = 1};
+    *options = (sb_options){.speed = 1, .cell = SB_WATER_MESH_CELL, .smooth = SB_WATER_MESH_SMOOTH};
     for (int i = 0; i < count; i++) {
         const char *argument = arguments[i];
         if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0) {

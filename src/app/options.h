@@ -17,6 +17,10 @@ typedef struct sb_options {
     const char *title;      /* --title */
     const char *url;        /* --url */
     const char *prefix;     /* --prefix */
+    const char *format;     /* --format */
+    const char *times;      /* --times */
+    double cell;            /* --cell; spacings */
+    int smooth;             /* --smooth; rounds */
     double speed;           /* --speed; 1 if it is not given */
     int live_port;          /* --live; 0: not given */
     char live_address[64];  /* --live=ADDRESS:PORT; empty: loopback */
@@ -46,7 +50,11 @@ enum {
     SB_OPT_SPEED = 16384,
     SB_OPT_CONTROL = 32768,
     SB_OPT_LIVE = 65536,
-    SB_OPT_TITLE = 131072
+    SB_OPT_TITLE = 131072,
+    SB_OPT_FORMAT = 262144,
+    SB_OPT_TIMES = 524288,
+    SB_OPT_CELL = 1048576,
+    SB_OPT_SMOOTH = 2097152
 };
 
 /* Parses the arguments after the command's name. what: the name of the positional argument in messages. */

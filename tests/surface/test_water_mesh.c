@@ -1,0 +1,249 @@
+/* Meshes of water: volume, closed surfaces, normals, values at vertices, the same bits for any number of threads. */
+#include "lattice.h"
+#include "surface/parts.h"
+
+#include <omp.h>
+#include <string.h>
+
+static size_t parts_of(const sb_water_mesh *mesh)
+{
+    sb_mesh_parts parts;
+    assert_int_equal(sb_mesh_parts_find(mesh, &parts, NULL), SB_OK);
+    const size_t count = parts.count;
+    sb_mesh_parts_free(&parts);
+    return count;
+}
+
+static sb_frame *sphere(void)
+{
+    sb_frame *frame = empty_frame(40 * 40 * 40, 0.25);
+    for (int k = 0; k < 40; k++)
+        for (int j = 0; j < 40; j++)
+            for (int i = 0; i < 40; i++) {
+                const double x = i - 19.5, y = j - 19.5, z = k - 19.5;
+                if (x * x + y * y + z * z < 15 * 15) add_particle(frame, 0.25 * x, 0.25 * y, 0.25 * z);
+            }
+    return frame;
+}
+
+static void a_sphere(void **state)
+{
+    (void)state;
+    static const double cells[] = {0.3, 0.5, 0.7, 1};
+    sb_frame *frame = sphere();
+    frame->origin = sb_vec(1e6, -2e6, 30);
+    for (size_t c = 0; c < 4; c++) {
+        sb_water_mesh mesh = mesh_of(frame, cells[c], 10);
+        assert_watertight(&mesh);
+        assert_int_equal(parts_of(&mesh), 1);
+        assert_near(sb_water_mesh_volume(&mesh) / water_of(frame), 1, 0.01);
+        assert_true(mesh.origin.x == frame->origin.x && mesh.origin.y == frame->origin.y);
+        for (size_t v = 0; v < mesh.vertices; v++) {
+            double radius = 0, along = 0, length = 0;
+            for (int a = 0; a < 3; a++) {
+                radius += pow((double)mesh.position[v][a], 2);
+                along += (double)mesh.position[v][a] * (double)mesh.normal[v][a];
+                length += pow((double)mesh.normal[v][a], 2);
+            }
+            assert_near(sqrt(radius), 0.25 * 15, 0.25);
+            assert_near(length, 1, 1e-5);
+            assert_true(along / sqrt(radius) > 0.8);
+        }
+        sb_water_mesh_free(&mesh);
+    }
+    sb_frame_release(frame);
+}
+
+static void a_box(void **state)
+{
+    (void)state;
+    sb_frame *frame = empty_frame(40 * 32 * 24, 2);
+    add_box(frame, 40, 32, 24, 7, -300, 1);
+    for (int smooth = 0; smooth <= 10; smooth += 10) {
+        sb_water_mesh mesh = mesh_of(frame, 0.5, smooth);
+        assert_watertight(&mesh);
+        assert_near(sb_water_mesh_volume(&mesh) / water_of(frame), 1, 0.01);
+        float top = -1000;
+        for (size_t v = 0; v < mesh.vertices; v++) top = fmaxf(top, mesh.position[v][2]);
+        assert_near((double)top, 48, 0.3); /* half a spacing above the last layer at 47 m */
+        sb_water_mesh_free(&mesh);
+    }
+    sb_frame_release(frame);
+}
+
+/* The shaken film has distances from 0.7 to 1.3 spacings. */
+static void a_film_stays_connected(void **state)
+{
+    (void)state;
+    for (int shaken = 0; shaken < 2; shaken++) {
+        sb_frame *frame = empty_frame(60 * 60, 1);
+        srand(5);
+        for (int j = 0; j < 60; j++)
+            for (int i = 0; i < 60; i++) {
+                const double x = i + shaken * 0.15 * (2.0 * rand() / RAND_MAX - 1),
+                             y = j + shaken * 0.15 * (2.0 * rand() / RAND_MAX - 1);
+                add_particle(frame, x, y, 0.02 * x + 0.03 * y);
+            }
+        sb_water_mesh mesh = mesh_of(frame, 0.5, 10);
+        assert_watertight(&mesh);
+        assert_int_equal(parts_of(&mesh), 1);
+        /* Its border of 240 spacings is round: 0.2 spacings are missing there, 1.5 % of the film. */
+        assert_near(sb_water_mesh_volume(&mesh) / water_of(frame), 0.985, 0.015);
+        /* No holes: V - E + F = 2 for a closed surface without handles, and E = 3 F / 2. */
+        assert_int_equal((long)mesh.vertices - (long)mesh.triangles / 2, 2);
+        sb_water_mesh_free(&mesh);
+        sb_frame_release(frame);
+    }
+}
+
+/* Smoothing keeps the volume of each part: a drop beside a box does not vanish. */
+static void smoothing_keeps_volumes(void **state)
+{
+    (void)state;
+    sb_frame *drop = empty_frame(1, 1), *both = empty_frame(1001, 1);
+    add_particle(drop, 30.3, 0.2, 0.1);
+    add_box(both, 10, 10, 10, 0, 0, 0);
+    sb_water_mesh box[2], rough = mesh_of(drop, 0.5, 0), smooth = mesh_of(drop, 0.5, 30);
+    const double before = sb_water_mesh_volume(&rough);
+    assert_true(before > 0.3 && before < 1.1);
+    assert_near(sb_water_mesh_volume(&smooth) / before, 1, 1e-3);
+    for (int s = 0; s < 2; s++) box[s] = mesh_of(both, 0.5, 30 * s);
+    assert_near(sb_water_mesh_volume(&box[1]) / sb_water_mesh_volume(&box[0]), 1, 1e-5);
+    assert_memory_not_equal(box[0].position, box[1].position, box[0].vertices * sizeof *box[0].position);
+    add_particle(both, 30.3, 0.2, 0.1);
+    sb_water_mesh together = mesh_of(both, 0.5, 30);
+    assert_int_equal(parts_of(&together), 2);
+    assert_near(sb_water_mesh_volume(&together) - sb_water_mesh_volume(&box[1]), before, 0.01);
+    sb_water_mesh_free(&rough);
+    sb_water_mesh_free(&smooth);
+    sb_water_mesh_free(&box[0]);
+    sb_water_mesh_free(&box[1]);
+    sb_water_mesh_free(&together);
+    sb_frame_release(drop);
+    sb_frame_release(both);
+}
+
+/* A disordered cloud has every case of the table, cavities and drops. */
+static sb_frame *cloud(void)
+{
+    sb_frame *frame = empty_frame(5000, 0.1);
+    srand(11);
+    for (int i = 0; i < 5000; i++)
+        add_particle(frame, 2.5 * rand() / RAND_MAX, 2.0 * rand() / RAND_MAX, 1.5 * rand() / RAND_MAX);
+    return frame;
+}
+
+static void a_disordered_cloud_is_closed(void **state)
+{
+    (void)state;
+    sb_frame *frame = cloud();
+    for (int c = 0; c < 2; c++) {
+        sb_water_mesh mesh = mesh_of(frame, c ? 1 : 0.5, 5);
+        assert_watertight(&mesh);
+        assert_true(parts_of(&mesh) > 10);
+        for (size_t v = 0; v < mesh.vertices; v++)
+            for (int a = 0; a < 3; a++) assert_true(isfinite(mesh.position[v][a]) && isfinite(mesh.normal[v][a]));
+        sb_water_mesh_free(&mesh);
+    }
+    sb_frame_release(frame);
+}
+
+static void the_same_bits_for_any_number_of_threads(void **state)
+{
+    (void)state;
+    sb_frame *frame = cloud();
+    sb_water_mesh first = {0};
+    for (int threads = 1; threads <= 3; threads++) {
+        omp_set_num_threads(threads);
+        sb_water_mesh mesh = mesh_of(frame, 0.5, 10);
+        if (threads == 1) {
+            first = mesh;
+            continue;
+        }
+        assert_int_equal(mesh.vertices, first.vertices);
+        assert_int_equal(mesh.triangles, first.triangles);
+        assert_memory_equal(mesh.position, first.position, first.vertices * sizeof *first.position);
+        assert_memory_equal(mesh.normal, first.normal, first.vertices * sizeof *first.normal);
+        assert_memory_equal(mesh.velocity, first.velocity, first.vertices * sizeof *first.velocity);
+        assert_memory_equal(mesh.pressure, first.pressure, first.vertices * sizeof *first.pressure);
+        assert_memory_equal(mesh.corner, first.corner, first.triangles * sizeof *first.corner);
+        sb_water_mesh_free(&mesh);
+    }
+    omp_set_num_threads(1);
+    sb_water_mesh_free(&first);
+    sb_frame_release(frame);
+}
+
+/* The particles have one velocity, and pressures that grow with x; a vertex has the mean over its side of the surface.
+ */
+static void values_at_vertices(void **state)
+{
+    (void)state;
+    sb_frame *frame = sphere();
+    sb_water_mesh mesh = mesh_of(frame, 0.5, 0);
+    for (size_t v = 0; v < mesh.vertices; v++) {
+        for (int a = 0; a < 3; a++) assert_near((double)mesh.velocity[v][a], a + 1, 1e-5);
+        assert_near((double)mesh.pressure[v], 1000 + 10 * (double)mesh.position[v][0], 10 * 0.25);
+    }
+    sb_water_mesh_free(&mesh);
+    sb_frame_release(frame);
+}
+
+static void bad_input(void **state)
+{
+    (void)state;
+    sb_frame *frame = empty_frame(10, 0.01);
+    sb_error error = {0};
+    sb_water_mesh mesh = mesh_of(frame, 0.5, 10);
+    assert_int_equal(mesh.vertices + mesh.triangles, 0);
+    add_particle(frame, 0, 0, 0);
+    assert_int_equal(sb_water_mesh_make(frame, 0.2, 10, &mesh, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "0.2 spacings"));
+    add_particle(frame, 0, 1e9, 0);
+    assert_int_equal(sb_water_mesh_make(frame, 0.5, 10, &mesh, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "along y"));
+    assert_true(!mesh.position && !mesh.corner);
+    sb_frame_release(frame);
+}
+
+static void any_allocation_may_fail(void **state)
+{
+    (void)state;
+    sb_frame *frame = empty_frame(27, 1);
+    add_box(frame, 3, 3, 3, 0, 0, 0);
+    omp_set_num_threads(1);
+    int failures = 0;
+    for (long n = 1;; n++) {
+        sb_water_mesh mesh;
+        sb_error error = {0};
+        sb_memory_fail_at(n);
+        const sb_status status = sb_water_mesh_make(frame, 0.5, 2, &mesh, &error);
+        const bool pending = sb_memory_fail_pending();
+        sb_memory_fail_at(0);
+        sb_water_mesh_free(&mesh);
+        if (pending) {
+            assert_int_equal(status, SB_OK);
+            break;
+        }
+        assert_int_equal(status, SB_FAILED);
+        assert_non_null(strstr(error.text, "memory"));
+        failures++;
+    }
+    assert_true(failures > 20);
+    sb_frame_release(frame);
+}
+
+int main(void)
+{
+    omp_set_num_threads(1);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_sphere),
+                                       cmocka_unit_test(a_box),
+                                       cmocka_unit_test(a_film_stays_connected),
+                                       cmocka_unit_test(smoothing_keeps_volumes),
+                                       cmocka_unit_test(a_disordered_cloud_is_closed),
+                                       cmocka_unit_test(the_same_bits_for_any_number_of_threads),
+                                       cmocka_unit_test(values_at_vertices),
+                                       cmocka_unit_test(bad_input),
+                                       cmocka_unit_test(any_allocation_may_fail)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
