@@ -67,21 +67,20 @@ sb_status sb_geotiff_load(sb_error *error)
         {"TIFFSetWarningHandler", &tiff.on_warning},
     };
     const sb_library_function of_geo[] = {
-        {"XTIFFInitialize", &tiff.initialize}, {"GTIFNew", &geo.open},          {"GTIFFree", &geo.close},
+        {"XTIFFInitialize", &tiff.initialize}, {"GTIFNew", &geo.open},         {"GTIFFree", &geo.close},
         {"GTIFKeyGetSHORT", &geo.key},         {"GTIFImageToPCS", &geo.place},
     };
     sb_status status = sb_library_load("libtiff.so.6", of_tiff, sizeof of_tiff / sizeof *of_tiff, error);
-    if (status == SB_OK)
-        status = sb_library_load("libgeotiff.so.5", of_geo, sizeof of_geo / sizeof *of_geo, error);
+    if (status == SB_OK) status = sb_library_load("libgeotiff.so.5", of_geo, sizeof of_geo / sizeof *of_geo, error);
     return status;
 }
 
 typedef struct image {
     TIFF *file;
-    uint32_t width, height;        /* pixels */
-    uint32_t across, down;         /* pixels of a tile; of a strip: width, rows */
-    uint16_t bits, kind;           /* of a sample */
-    uint64_t block;                /* bytes of a tile or strip */
+    uint32_t width, height; /* pixels */
+    uint32_t across, down;  /* pixels of a tile; of a strip: width, rows */
+    uint16_t bits, kind;    /* of a sample */
+    uint64_t block;         /* bytes of a tile or strip */
     bool tiled, has_nodata;
     double nodata;
 } image;
@@ -181,23 +180,25 @@ static void copy_block(const image *of, const sb_raster_about *about, const sb_r
     }
 }
 
-static sb_status read_blocks(const image *of, const sb_raster_about *about, const sb_raster_part *part,
-                             double *heights, sb_error *error)
+static sb_status read_blocks(const image *of, const sb_raster_about *about, const sb_raster_part *part, double *heights,
+                             sb_error *error)
 {
     const uint64_t top = about->flip_y ? of->height - part->row - part->rows : part->row;
     const uint64_t left = about->flip_x ? of->width - part->column - part->columns : part->column;
     unsigned char *bytes = sb_alloc((size_t)of->block, 1);
     sb_status status = bytes ? SB_OK : sb_fail(error, SB_BAD_INPUT, "a block of it does not fit into memory");
     for (uint64_t y = top / of->down * of->down; y < top + part->rows && status == SB_OK; y += of->down)
-        for (uint64_t x = left / of->across * of->across; x < left + part->columns && status == SB_OK; x += of->across) {
+        for (uint64_t x = left / of->across * of->across; x < left + part->columns && status == SB_OK;
+             x += of->across) {
             const uint32_t strip = (uint32_t)(y / of->down);
-            const tmsize_t got =
-                of->tiled ? tiff.read_tile(of->file, tiff.tile_of(of->file, (uint32_t)x, (uint32_t)y, 0, 0), bytes,
-                                           (tmsize_t)of->block)
-                          : tiff.read_strip(of->file, strip, bytes, (tmsize_t)of->block);
+            const tmsize_t got = of->tiled
+                                     ? tiff.read_tile(of->file, tiff.tile_of(of->file, (uint32_t)x, (uint32_t)y, 0, 0),
+                                                      bytes, (tmsize_t)of->block)
+                                     : tiff.read_strip(of->file, strip, bytes, (tmsize_t)of->block);
             if (got < 0)
-                status = sb_fail(error, SB_BAD_INPUT, "pixels at column %u, row %u cannot be read: %s, expected a "
-                                                      "whole file",
+                status = sb_fail(error, SB_BAD_INPUT,
+                                 "pixels at column %u, row %u cannot be read: %s, expected a "
+                                 "whole file",
                                  (unsigned)x, (unsigned)y, reason[0] ? reason : "no reason given");
             else
                 copy_block(of, about, part, (uint32_t)x, (uint32_t)y, bytes, heights);
@@ -263,15 +264,15 @@ sb_status sb_geotiff_take(const sb_raster_file *file, const sb_raster_part *part
     image of = {.file = tiff.open(file->descriptor, "the file", "rm")};
     sb_status status = SB_OK;
     if (!of.file)
-        return sb_fail(error, SB_BAD_INPUT, "not readable as GeoTIFF: %s; expected a whole file", reason[0] ? reason : "no reason given");
+        return sb_fail(error, SB_BAD_INPUT, "not readable as GeoTIFF: %s; expected a whole file",
+                       reason[0] ? reason : "no reason given");
     status = read_layout(&of, error);
     if (status == SB_OK) status = read_nodata(&of, error);
     if (status == SB_OK && !(keys = geo.open(of.file)))
         status = sb_fail(error, SB_BAD_INPUT, "its GeoTIFF keys are damaged, expected a GeoTIFF");
     if (status == SB_OK) status = read_places(&of, keys, about, error);
     if (status == SB_OK) status = read_system(keys, about, error);
-    if (status == SB_OK && heights &&
-        (part->column + part->columns > of.width || part->row + part->rows > of.height))
+    if (status == SB_OK && heights && (part->column + part->columns > of.width || part->row + part->rows > of.height))
         status = sb_fail(error, SB_BAD_INPUT, "it changed while it was read");
     if (status == SB_OK && heights) {
         for (size_t i = 0; i < part->columns * part->rows; ++i) heights[i] = (double)NAN;

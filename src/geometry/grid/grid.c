@@ -136,6 +136,17 @@ static read_grid *reader_of(const char *path)
     return NULL;
 }
 
+sb_status sb_grid_room(const char *path, const sb_grid *grid, size_t more, sb_error *error)
+{
+    const double node = (double)(sizeof(double) + sizeof(uint32_t) + sizeof(sb_vec3) + more);
+    const double needed = node * (double)grid->columns * (double)grid->rows, there = (double)sb_memory_available();
+    if (!(there > 0) || needed < (1 - SB_MEMORY_SPARE) * there) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT,
+                   "%.500s: %zu x %zu grid lines take %.3g GB of memory, and %.3g GB are available, of which a fifth "
+                   "is left free; expected fewer",
+                   path, grid->columns, grid->rows, needed / 1e9, there / 1e9);
+}
+
 sb_status sb_grid_read_text(const char *path, sb_grid *grid, sb_error *error)
 {
     read_grid *const read = reader_of(path);

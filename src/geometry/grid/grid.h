@@ -43,6 +43,10 @@ sb_status sb_grid_read_header(sb_grid_text *from, sb_grid_header *head, sb_error
 sb_status sb_grid_read_ascii(const char *path, const char *text, sb_grid *grid, sb_error *error);
 sb_status sb_grid_read_points(const char *path, const char *text, sb_grid *grid, sb_error *error);
 
+/* SB_BAD_INPUT, with the figures, if the heights, vertices and holes of a grid, and `more` bytes for each node, need
+   more memory than is available. */
+sb_status sb_grid_room(const char *path, const sb_grid *grid, size_t more, sb_error *error);
+
 /* Reads a text grid in the format of its name's ending. The caller frees grid->heights. */
 sb_status sb_grid_read_text(const char *path, sb_grid *grid, sb_error *error);
 

@@ -29,9 +29,9 @@ static struct {
 sb_status sb_netcdf_load(sb_error *error)
 {
     const sb_library_function functions[] = {
-        {"nc_initialize", &nc.initialize}, {"nc_open_mem", &nc.open},        {"nc_strerror", &nc.reason},
-        {"nc_inq_nvars", &nc.count},       {"nc_inq_var", &nc.variable},     {"nc_inq_varid", &nc.find},
-        {"nc_inq_dim", &nc.dimension},     {"nc_inq_att", &nc.attribute},    {"nc_get_att_text", &nc.text},
+        {"nc_initialize", &nc.initialize}, {"nc_open_mem", &nc.open},          {"nc_strerror", &nc.reason},
+        {"nc_inq_nvars", &nc.count},       {"nc_inq_var", &nc.variable},       {"nc_inq_varid", &nc.find},
+        {"nc_inq_dim", &nc.dimension},     {"nc_inq_att", &nc.attribute},      {"nc_get_att_text", &nc.text},
         {"nc_get_att_double", &nc.number}, {"nc_get_vara_double", &nc.values},
     };
     sb_status status = sb_library_load("libnetcdf.so.19", functions, sizeof functions / sizeof *functions, error);
@@ -101,8 +101,8 @@ static bool is_grid(int file, int id, variable *found)
 
 static sb_status find_grid(int file, variable *found, sb_error *error)
 {
-    static const char *const usual[] = {"elevation", "z",          "Band1",    "topo", "bathymetry",
-                                        "height",    "bathy",      "altitude", "depth", NULL};
+    static const char *const usual[] = {"elevation", "z",     "Band1",    "topo",  "bathymetry",
+                                        "height",    "bathy", "altitude", "depth", NULL};
     int count = 0, grids = 0, named = 0;
     variable each;
     nc.count(file, &count);
@@ -167,7 +167,8 @@ static void read_mapping(const variable *of, sb_raster_about *about)
     double code = 0;
     for (int k = 0; text && names[k] && about->epsg == 0; ++k)
         if (read_text(of->file, id, names[k], text, 65536))
-            about->epsg = k < 2 ? code_of(text) : (uint32_t)strtoul(strncasecmp(text, "EPSG:", 5) ? text : text + 5, NULL, 10);
+            about->epsg =
+                k < 2 ? code_of(text) : (uint32_t)strtoul(strncasecmp(text, "EPSG:", 5) ? text : text + 5, NULL, 10);
     if (about->epsg == 0 && read_number(of->file, id, "epsg_code", &code) && code > 0 && code < 1e5)
         about->epsg = (uint32_t)code;
     sb_free(text);
@@ -273,7 +274,8 @@ sb_status sb_netcdf_take(const sb_raster_file *file, const sb_raster_part *part,
     int id = 0;
     variable of = {0};
     const int failed = nc.open(file->path, NC_NOWRITE, file->size, file->bytes, &id);
-    if (failed != NC_NOERR) return sb_fail(error, SB_BAD_INPUT, "not readable as NetCDF: %s; expected a whole file", nc.reason(failed));
+    if (failed != NC_NOERR)
+        return sb_fail(error, SB_BAD_INPUT, "not readable as NetCDF: %s; expected a whole file", nc.reason(failed));
     sb_status status = find_grid(id, &of, error);
     if (status == SB_OK) status = read_about(&of, about, error);
     if (status == SB_OK && heights &&

@@ -61,7 +61,7 @@ static sb_status open_content(const char *path, int descriptor, const format *as
     *file = (sb_raster_file){.path = path, .descriptor = descriptor, .size = (size_t)found.st_size};
     if (!as->map) return SB_OK;
     /* NetCDF may write to the memory that it is given: a private mapping leaves the file as it is. */
-    file->bytes = mmap(NULL, file->size, PROT_READ | PROT_WRITE, MAP_PRIVATE, descriptor, 0);
+    file->bytes = mmap(NULL, file->size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_NORESERVE, descriptor, 0);
     if (file->bytes == MAP_FAILED) return sb_fail(error, SB_BAD_INPUT, "cannot be mapped: %s", strerror(errno));
     return SB_OK;
 }
@@ -182,7 +182,10 @@ sb_status sb_raster_read(const char *path, const sb_raster_part *part, sb_grid *
         return sb_fail(error, SB_BAD_INPUT,
                        "%.500s: %llu x %llu heights within the window, expected at most %d: a smaller window", path,
                        (unsigned long long)part->columns, (unsigned long long)part->rows, SB_GRID_NODES_MAX);
-    sb_status status = read_part(path, part, &got, error);
+    const sb_grid size = {.columns = (size_t)part->columns, .rows = (size_t)part->rows};
+    /* The child has the heights, too. */
+    sb_status status = sb_grid_room(path, &size, sizeof(double) + 6 * sizeof(uint32_t), error);
+    if (status == SB_OK) status = read_part(path, part, &got, error);
     if (status != SB_OK) return status;
     const sb_raster_about *of = &got.about;
     *grid = (sb_grid){.columns = (size_t)part->columns,

@@ -14,12 +14,12 @@ typedef enum sb_raster_crs {
 /* What a file states of its grid. Node (0, 0) is the south-western one; coordinates in file units (m, degrees). */
 typedef struct sb_raster_about {
     uint64_t columns, rows;
-    double x, y, dx, dy;      /* dx, dy > 0 */
-    uint32_t flip_x, flip_y;  /* the file stores its columns from east to west, its rows from north to south */
-    uint32_t crs, epsg;       /* sb_raster_crs; EPSG code, 0: none */
-    uint32_t geographic;      /* x, y are longitude and latitude in degrees */
-    uint32_t vertical;        /* EPSG code of the vertical system, 0: none */
-    char note[SB_NAME_MAX];   /* what the file says of its heights, or "" */
+    double x, y, dx, dy;     /* dx, dy > 0 */
+    uint32_t flip_x, flip_y; /* the file stores its columns from east to west, its rows from north to south */
+    uint32_t crs, epsg;      /* sb_raster_crs; EPSG code, 0: none */
+    uint32_t geographic;     /* x, y are longitude and latitude in degrees */
+    uint32_t vertical;       /* EPSG code of the vertical system, 0: none */
+    char note[SB_NAME_MAX];  /* what the file says of its heights, or "" */
 } sb_raster_about;
 
 /* A part of a grid, in nodes. */
