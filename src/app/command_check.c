@@ -14,6 +14,7 @@
 #include <math.h>
 #include <omp.h>
 #include <stdio.h>
+#include <string.h>
 
 static const char help[] = "usage: shorebreak check SCENE [--json] [--preset NAME] [--set KEY=VALUE]... [--threads N]\n"
                            "Builds the particles of a scene without running it. Prints their number, estimates of "
@@ -105,6 +106,20 @@ static void report_sea(const sb_model *model, int side)
            sb_side_names[side], sea->along, sea->along == 1 ? "" : "s", sea->strip, sea->width - sea->strip, low, high);
 }
 
+/* Prints the lines that describe each terrain from files. */
+static void report_terrain(const sb_model *model)
+{
+    for (size_t b = 0; b < model->body_count; b++) {
+        const char *line = model->bodies[b].mesh.told;
+        if (!line) continue;
+        printf("  terrain \"%s\"\n", model->bodies[b].name);
+        for (size_t length; *line; line += length + (line[length] == '\n')) {
+            length = strcspn(line, "\n");
+            printf("    %.*s\n", (int)length, line);
+        }
+    }
+}
+
 static void report_text(const sb_scene *scene, const sb_model *model, const estimate *e)
 {
     printf("%s\n", scene->title);
@@ -122,6 +137,7 @@ static void report_text(const sb_scene *scene, const sb_model *model, const esti
     printf("  run time           about %.0f s on %d threads%s\n", e->seconds, omp_get_max_threads(),
            e->settling > 0 ? ", including settling" : "");
     printf("  disk               about %.0f MB\n", e->disk / 1e6);
+    report_terrain(model);
     visit_warnings(scene, model, print_line, NULL);
 }
 
@@ -152,6 +168,7 @@ static void report_json(const sb_scene *scene, const sb_model *model, const esti
         sb_json_text(&json, "name", model->bodies[b].name);
         sb_json_count(&json, "boundary_particles", model->bodies[b].count);
         sb_json_bool(&json, "moves", model->bodies[b].wavemaker >= 0);
+        if (model->bodies[b].mesh.told) sb_json_text(&json, "terrain", model->bodies[b].mesh.told);
         sb_json_close(&json);
     }
     sb_json_close(&json);

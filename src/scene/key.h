@@ -66,7 +66,7 @@ struct sb_table {
     size_t count;
     const sb_removed_key *removed; /* ends with a row without a name; NULL: none */
     size_t size;                   /* of the struct, for lists */
-    bool plain;                    /* an item may be the plain value of the first key */
+    bool plain;                    /* an item of a list may be written as the value of the first row alone */
     /* Returns the bits of the rows that apply. They follow from the values read so far and from the keys present (map;
        NULL when writing). */
     unsigned (*variant)(const void *item, const sb_yaml *map);

@@ -100,6 +100,18 @@ static sb_status make_items(sb_reader *reader, const sb_key *key, size_t count, 
     return SB_OK;
 }
 
+/* Reads one item. A plain value is read as a block with the table's first key. */
+static sb_status read_item(sb_reader *reader, const sb_yaml *item, const sb_table *table, void *into)
+{
+    if (!table->plain || item->kind != SB_YAML_SCALAR) return sb_reader_block(reader, item, table, into);
+    char name[SB_NAME_MAX];
+    sb_yaml only = *item;
+    snprintf(name, sizeof name, "%s", table->keys[0].name);
+    only.key = name;
+    const sb_yaml block = {.kind = SB_YAML_MAP, .line = item->line, .column = item->column, .count = 1, .items = &only};
+    return sb_reader_block(reader, &block, table, into);
+}
+
 static sb_status read_list(sb_reader *reader, const sb_yaml *list, const sb_key *key, void *item)
 {
     if (list->kind != SB_YAML_LIST)
@@ -114,12 +126,7 @@ static sb_status read_list(sb_reader *reader, const sb_yaml *list, const sb_key 
     sb_status status = make_items(reader, key, list->count, item, &items);
     for (size_t i = 0; status == SB_OK && i < list->count; i++) {
         size_t length = path_push(reader, NULL, i);
-        char *at = items + i * key->table->size;
-        const sb_key *first = &key->table->keys[0];
-        if (key->table->plain && list->items[i].kind == SB_YAML_SCALAR)
-            status = sb_reader_value(reader, &list->items[i], first, at + first->offset);
-        else
-            status = sb_reader_block(reader, &list->items[i], key->table, at);
+        status = read_item(reader, &list->items[i], key->table, items + i * key->table->size);
         if (status == SB_OK) reader->path[length] = '\0';
     }
     return status == SB_OK ? refuse_same_name(reader, list, key->table, items) : status;

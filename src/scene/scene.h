@@ -153,7 +153,7 @@ typedef struct sb_numerics {
 
 typedef enum sb_shape {
     SB_SHAPE_MESH,
-    SB_SHAPE_GRID, /* terrain heights: ESRI ASCII or x y z */
+    SB_SHAPE_GRID, /* terrain heights */
     SB_SHAPE_BOX,
     SB_SHAPE_CYLINDER, /* upright, closed */
     SB_SHAPE_PLANE,    /* a rectangle; solid on the side away from its normal */
@@ -170,6 +170,24 @@ typedef enum sb_positive {
     SB_POSITIVE_DOWN /* a grid's values are depths */
 } sb_positive;
 
+typedef enum sb_voids {
+    SB_VOIDS_KEEP, /* missing heights are holes in the ground */
+    SB_VOIDS_FILL  /* they are interpolated from the heights around them */
+} sb_voids;
+
+/* One file of a stack of grids. */
+typedef struct sb_grid_file {
+    char *file;   /* absolute path */
+    char *crs;    /* its coordinate system; empty: as the file states */
+    double datum; /* m, added to its heights */
+} sb_grid_file;
+
+/* A part of the ground, in m of the projection. */
+typedef struct sb_window {
+    bool present;
+    double x_min, y_min, x_max, y_max;
+} sb_window;
+
 typedef struct sb_body {
     char name[SB_NAME_MAX];
     sb_shape shape;
@@ -185,6 +203,13 @@ typedef struct sb_body {
     bool split;           /* each named node becomes a body */
     sb_positive positive; /* direction in which a grid's values are positive */
     double datum;         /* m, added to a grid's heights */
+    size_t file_count;    /* a grid's stack; 0: `file` alone */
+    sb_grid_file *files;
+    char *crs, *projection; /* of a grid's file, of its ground; empty: see geometry/grid/terrain.c */
+    double origin[2];       /* m: place of the projection that becomes (0, 0) */
+    sb_window window;       /* used part of a grid; not present: that of the domain */
+    double resample;        /* m between the nodes of the ground; 0: those of the file, or the least of the stack */
+    sb_voids voids;
     /* transform, applied in this order after scale and up-axis */
     sb_vec3 rotate;    /* degrees about x, then y, then z */
     sb_vec3 translate; /* m */

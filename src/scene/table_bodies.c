@@ -6,6 +6,7 @@
 static const char *const shape_names[] = {"mesh", "grid", "box", "cylinder", "plane", "basin", NULL};
 static const char *const role_names[] = {"solid", "terrain", NULL};
 static const char *const positive_names[] = {"up", "down", NULL};
+static const char *const voids_names[] = {"keep", "fill", NULL};
 static const char *const up_names[] = {"z", "y", NULL};
 
 enum {
@@ -16,7 +17,10 @@ enum {
     PLANE = 1 << SB_SHAPE_PLANE,
     BASIN = 1 << SB_SHAPE_BASIN,
     MOMENT = 1 << 8,
-    COLOR = 1 << 9
+    COLOR = 1 << 9,
+    ALONE = 1 << 10, /* a grid from one file */
+    STACK = 1 << 11, /* a grid from several files */
+    WINDOW = 1 << 12
 };
 
 static unsigned variant(const void *item, const sb_yaml *map)
@@ -24,10 +28,40 @@ static unsigned variant(const void *item, const sb_yaml *map)
     const sb_body *body = item;
     bool moment = map ? sb_yaml_child(map, "moment_point") != NULL : body->has_moment_point;
     bool color = map ? sb_yaml_child(map, "color") != NULL : body->color[0] >= 0;
-    return 1u << body->shape | (moment ? MOMENT : 0u) | (color ? COLOR : 0u);
+    bool stack = map ? sb_yaml_child(map, "files") != NULL : body->file_count > 0;
+    bool window = map ? sb_yaml_child(map, "window") != NULL : body->window.present;
+    unsigned files = body->shape != SB_SHAPE_GRID ? 0u : (stack ? STACK : ALONE) | (window ? WINDOW : 0u);
+    return 1u << body->shape | (moment ? MOMENT : 0u) | (color ? COLOR : 0u) | files;
 }
 
 /* clang-format off */
+static const sb_key file_keys[] = {
+    {.name = "file", .type = SB_KEY_FILE, SB_KEY_AT(sb_grid_file, file), .flags = SB_KEY_REQUIRED,
+     .doc = "Heights, in a format of `bodies[].file`."},
+    {.name = "crs", .type = SB_KEY_TEXT, SB_KEY_AT(sb_grid_file, crs), .fallback = "\"\"",
+     .doc = "Coordinate system of the file, as `bodies[].crs`."},
+    {.name = "datum", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_grid_file, datum), .unit = "m", SB_KEY_ANY,
+     .fallback = "0", .doc = "Value added to the heights of this file, in addition to that of the body."},
+};
+static const sb_table file_table = {SB_KEY_ROWS(file_keys), .size = sizeof(sb_grid_file), .plain = true};
+
+static const sb_key window_keys[] = {
+    {.name = "min", .type = SB_KEY_PLACE, SB_KEY_AT(sb_window, x_min), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED, .doc = "Corner with the smallest coordinates."},
+    {.name = "max", .type = SB_KEY_PLACE, SB_KEY_AT(sb_window, x_max), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED, .doc = "Corner with the largest coordinates."},
+};
+
+static sb_status finish_window(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    sb_window *window = item;
+    window->present = true;
+    if (window->x_min < window->x_max && window->y_min < window->y_max) return SB_OK;
+    return sb_reader_fail(reader, map, "max", "is not above min, expected min < max");
+}
+
+static const sb_table window_table = {SB_KEY_ROWS(window_keys), .size = sizeof(sb_window), .finish = finish_window};
+
 static const sb_key keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_body, name), .flags = SB_KEY_REQUIRED,
      .doc = "Unique name of the body; it appears in tables and channels."},
@@ -48,8 +82,34 @@ static const sb_key keys[] = {
      .applies = COLOR, .derived = "chosen by role", .only = "pictures",
      .doc = "Colour in pictures: [red, green, blue]."},
     {.name = "file", .type = SB_KEY_FILE, SB_KEY_AT(sb_body, file), .flags = SB_KEY_REQUIRED,
-     .applies = MESH | GRID, .only = "shape mesh or grid",
-     .doc = "Mesh (OBJ, STL, PLY, glTF/GLB, DAE), or heights (ESRI ASCII .asc, GeoClaw topotype 1 to 3, lines of x y z)."},
+     .applies = MESH | ALONE, .only = "shape mesh, or grid without files",
+     .doc = "Mesh (OBJ, STL, PLY, glTF/GLB, DAE), or heights (ESRI ASCII .asc, GeoClaw topotype 1 to 3, lines of x y z, "
+            "GeoTIFF .tif, NetCDF .nc or .grd)."},
+    {.name = "files", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_body, files, file_count), .table = &file_table,
+     .applies = STACK, .only = "shape grid", .derived = "`file` alone",
+     .doc = "Stack of grids: at each place the file with the smallest cells counts. Items are blocks of keys, or file "
+            "names alone."},
+    {.name = "crs", .type = SB_KEY_TEXT, SB_KEY_AT(sb_body, crs), .fallback = "\"\"", .applies = ALONE,
+     .only = "shape grid without files",
+     .doc = "Coordinate system of the file: `EPSG:<number>` or a PROJ string. Empty: as the file states; if it states "
+            "none, metres."},
+    {.name = "projection", .type = SB_KEY_TEXT, SB_KEY_AT(sb_body, projection), .fallback = "\"\"", .applies = GRID,
+     .only = "shape grid",
+     .doc = "Coordinate system of the ground, in metres. Empty: that of the first file in metres, or the UTM zone of "
+            "the middle of the finest file in degrees."},
+    {.name = "origin", .type = SB_KEY_PLACE, SB_KEY_AT(sb_body, origin), .unit = "m", SB_KEY_ANY,
+     .fallback = "[0, 0]", .applies = GRID, .only = "shape grid",
+     .doc = "Place in the projection that becomes (0, 0), before scale, rotation and translation."},
+    {.name = "window", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_body, window), .table = &window_table, .applies = WINDOW,
+     .only = "shape grid", .derived = "what the domain needs",
+     .doc = "Part of the ground that is used, in metres of the projection."},
+    {.name = "resample", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_body, resample), .unit = "m", SB_KEY_NOT_NEGATIVE,
+     .fallback = "0", .applies = GRID, .only = "shape grid",
+     .doc = "Distance between the nodes of the ground. 0: those of the file, or the smallest cells of the files if "
+            "they are several or projected."},
+    {.name = "voids", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_body, voids), .words = voids_names, .fallback = "keep",
+     .applies = GRID, .only = "shape grid",
+     .doc = "Missing heights: `keep` leaves holes in the ground, `fill` interpolates from the heights around them."},
     {.name = "up", .type = SB_KEY_LETTER, SB_KEY_AT(sb_body, up), .words = up_names,
      .fallback = "z", .applies = MESH, .only = "shape mesh", .doc = "The file's upward axis."},
     {.name = "scale", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_body, scale), .unit = "m",
@@ -117,6 +177,8 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     if (body->role == SB_ROLE_SOLID && body->shape == SB_SHAPE_GRID)
         return sb_reader_fail(reader, map, "role",
                               "a grid is a surface of the ground and cannot be solid, expected terrain");
+    if (present & STACK && body->file_count == 0)
+        return sb_reader_fail(reader, map, "files", "has no items, expected one file or more");
     if (!sb_yaml_child(map, "report")) body->report = body->role == SB_ROLE_SOLID;
     /* Bodies that are given by x and z only extend across the slice at y = 0. */
     double half_width = 2 * scene->numerics.support * scene->resolution;

@@ -21,7 +21,9 @@ static const char everything[] =
     "bodies:\n"
     "  - {name: null_, shape: mesh, file: FILE, up: y, scale: 0.3048, split: true,\n"
     "     rotate: [10, 20, 30], translate: [1, 2, 3]}\n"
-    "  - {name: bed, shape: grid, file: FILE, datum: -0.1}\n"
+    "  - {name: bed, shape: grid, file: FILE, crs: 'EPSG:4326', datum: -0.1, resample: 0.5, voids: fill}\n"
+    "  - {name: coast, shape: grid, files: [FILE, {file: FILE, crs: '+proj=utm +zone=54 +type=crs', datum: 2}],\n"
+    "     projection: 'EPSG:32654', origin: [5.5e5, 4.25e6], window: {min: [1, 2], max: [3, 4]}}\n"
     "  - {name: b-1, shape: box, min: [0, 0, 0], max: [1, 1, 1], color: [0.1, 0.2, 0.3]}\n"
     "  - {name: c.d, shape: cylinder, center: [0, 0, 0], radius: 1, height: 2, report: false}\n"
     "  - {name: 1e5, shape: plane, center: [0, 0, 0], normal: [1, 2, 3], width: 1, length: 2,\n"
@@ -70,6 +72,16 @@ static void same_given(const sb_scene *a, const sb_scene *b)
     assert_memory_equal(&one, &other, sizeof one);
 }
 
+static void same_files(const sb_body *a, const sb_body *b)
+{
+    assert_int_equal(a->file_count, b->file_count);
+    for (size_t i = 0; i < a->file_count; i++) {
+        same_text(&a->files[i].file, &b->files[i].file);
+        same_text(&a->files[i].crs, &b->files[i].crs);
+        assert_near(a->files[i].datum, b->files[i].datum, 0);
+    }
+}
+
 static void same_bodies(const sb_scene *a, const sb_scene *b)
 {
     assert_int_equal(a->body_count, b->body_count);
@@ -78,7 +90,11 @@ static void same_bodies(const sb_scene *a, const sb_scene *b)
         memcpy(&one, &a->bodies[i], sizeof one);
         memcpy(&other, &b->bodies[i], sizeof other);
         same_text(&one.file, &other.file);
-        one.file = other.file = NULL;
+        same_text(&one.crs, &other.crs);
+        same_text(&one.projection, &other.projection);
+        same_files(&one, &other);
+        one.file = one.crs = one.projection = other.file = other.crs = other.projection = NULL;
+        one.files = other.files = NULL;
         assert_memory_equal(&one, &other, sizeof one);
     }
 }

@@ -94,7 +94,7 @@ static sb_status check_range(const char *path, const sb_mesh *mesh, sb_error *er
     return SB_OK;
 }
 
-static sb_status make_mesh(const char *path, const sb_grid *grid, double datum, sb_mesh *mesh, sb_error *error)
+sb_status sb_grid_mesh(const char *path, const sb_grid *grid, double datum, sb_mesh *mesh, sb_error *error)
 {
     size_t triangles = count_triangles(grid);
     if (triangles == 0)
@@ -136,23 +136,42 @@ static read_grid *reader_of(const char *path)
     return NULL;
 }
 
-sb_status sb_mesh_import_grid(const char *path, double datum, sb_mesh *mesh, sb_error *error)
+sb_status sb_grid_room(const char *path, const sb_grid *grid, size_t more, sb_error *error)
+{
+    const double node = (double)(sizeof(double) + sizeof(uint32_t) + sizeof(sb_vec3) + more);
+    const double needed = node * (double)grid->columns * (double)grid->rows, there = (double)sb_memory_available();
+    if (!(there > 0) || needed < (1 - SB_MEMORY_SPARE) * there) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT,
+                   "%.500s: %zu x %zu grid lines take %.3g GB of memory, and %.3g GB are available, of which a fifth "
+                   "is left free; expected fewer",
+                   path, grid->columns, grid->rows, needed / 1e9, there / 1e9);
+}
+
+sb_status sb_grid_read_text(const char *path, sb_grid *grid, sb_error *error)
 {
     read_grid *const read = reader_of(path);
     if (!read)
         return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s: unknown grid format, expected .asc, .tt2 or .tt3 (rows), .xyz or .tt1 (points)", path);
+                       "%.500s: unknown grid format, expected .asc, .tt2 or .tt3 (rows), .xyz or .tt1 (points), .tif "
+                       "(GeoTIFF), .nc or .grd (NetCDF)",
+                       path);
     char *text = NULL;
     size_t length = 0;
-    sb_grid grid = {0};
     sb_status status = sb_text_read(path, file_limit, &text, &length, error);
     if (status != SB_OK) return status;
     if (strlen(text) != length)
         status = sb_fail(error, SB_BAD_INPUT, "%.500s: byte %zu is zero, expected text", path, strlen(text));
     else
-        status = read(path, text, &grid, error);
+        status = read(path, text, grid, error);
     sb_free(text);
-    if (status == SB_OK) status = make_mesh(path, &grid, datum, mesh, error);
+    return status;
+}
+
+sb_status sb_mesh_import_grid(const char *path, double datum, sb_mesh *mesh, sb_error *error)
+{
+    sb_grid grid = {0};
+    sb_status status = sb_grid_read_text(path, &grid, error);
+    if (status == SB_OK) status = sb_grid_mesh(path, &grid, datum, mesh, error);
     sb_free(grid.heights);
     return status;
 }

@@ -14,6 +14,11 @@ typedef struct sb_grid {
     double *heights;     /* [j * columns + i] */
 } sb_grid;
 
+/* A rectangle, of places x, y. */
+typedef struct sb_terrain_area {
+    double min[2], max[2];
+} sb_terrain_area;
+
 /* A text grid that is read token by token. "#" begins a comment that ends with the line. */
 typedef struct sb_grid_text {
     const char *path, *at;
@@ -37,6 +42,16 @@ sb_status sb_grid_read_header(sb_grid_text *from, sb_grid_header *head, sb_error
 /* Both read the zero-terminated text of the file `path`. SB_BAD_INPUT "path:line: ...". */
 sb_status sb_grid_read_ascii(const char *path, const char *text, sb_grid *grid, sb_error *error);
 sb_status sb_grid_read_points(const char *path, const char *text, sb_grid *grid, sb_error *error);
+
+/* SB_BAD_INPUT, with the figures, if the heights, vertices and holes of a grid, and `more` bytes for each node, need
+   more memory than is available. */
+sb_status sb_grid_room(const char *path, const sb_grid *grid, size_t more, sb_error *error);
+
+/* Reads a text grid in the format of its name's ending. The caller frees grid->heights. */
+sb_status sb_grid_read_text(const char *path, sb_grid *grid, sb_error *error);
+
+/* Makes the open surface of a grid; datum (m) is added to the heights. SB_BAD_INPUT for a grid without triangles. */
+sb_status sb_grid_mesh(const char *path, const sb_grid *grid, double datum, sb_mesh *mesh, sb_error *error);
 
 /* Like strtod, but for decimal numbers only: of 0x10 it reads the 0. */
 static inline double sb_decimal(const char *text, char **end)

@@ -145,18 +145,6 @@ static sb_status place_points(const cloud *all, const axis axes[2], sb_grid *gri
     return SB_OK;
 }
 
-/* A few points may span many grid lines, and memory is needed for the heights, vertices and holes of all of them. */
-static sb_status check_room(const char *path, const sb_grid *grid, sb_error *error)
-{
-    const double node = sizeof(double) + sizeof(uint32_t) + sizeof(sb_vec3);
-    const double needed = node * (double)grid->columns * (double)grid->rows, there = (double)sb_memory_available();
-    if (!(there > 0) || needed < (1 - SB_MEMORY_SPARE) * there) return SB_OK;
-    return sb_fail(error, SB_BAD_INPUT,
-                   "%.500s: %zu x %zu grid lines take %.3g GB of memory, and %.3g GB are available, of which a fifth "
-                   "is left free; expected fewer",
-                   path, grid->columns, grid->rows, needed / 1e9, there / 1e9);
-}
-
 sb_status sb_grid_read_points(const char *path, const char *text, sb_grid *grid, sb_error *error)
 {
     cloud all = {.path = path};
@@ -176,7 +164,8 @@ sb_status sb_grid_read_points(const char *path, const char *text, sb_grid *grid,
                          path, all.count, made.columns, made.rows);
         goto done;
     }
-    status = check_room(path, &made, error);
+    /* A few points may span many grid lines. */
+    status = sb_grid_room(path, &made, 0, error);
     if (status != SB_OK) goto done;
     made.heights = sb_alloc_untouched(made.columns * made.rows, sizeof *made.heights);
     status = made.heights ? place_points(&all, axes, &made, error) : sb_fail_memory(error, "a terrain grid");

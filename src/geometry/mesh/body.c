@@ -1,5 +1,6 @@
 /* Makes the meshes of a body of the scene: shape, units and axes, transform, names. */
 #include "base/memory.h"
+#include "geometry/grid/terrain.h"
 #include "geometry/mesh/mesh.h"
 
 #include <stdio.h>
@@ -79,8 +80,43 @@ static void transform(const sb_body *body, sb_mesh *mesh)
     }
 }
 
+/* A box in scene coordinates. */
+typedef struct box {
+    sb_vec3 min, max;
+    double margin; /* m */
+} box;
+
+/* Returns the extent in x and y of the box and its margin before the body's rotation, translation and scale. */
+static sb_terrain_area area_of(const sb_body *body, const box *within)
+{
+    const double angles[3] = {body->rotate.x, body->rotate.y, body->rotate.z};
+    const sb_vec3 axes[2] = {sb_vec(1, 0, 0), sb_vec(0, 1, 0)}, ends[2] = {within->min, within->max};
+    sb_terrain_area area = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+    double cosine[3], sine[3];
+    for (int axis = 0; axis < 3; ++axis) turn_of(angles[axis], &cosine[axis], &sine[axis]);
+    for (int corner = 0; corner < 8; ++corner) {
+        const sb_vec3 at = sb_vec(ends[corner & 1].x, ends[corner >> 1 & 1].y, ends[corner >> 2].z);
+        for (int k = 0; k < 2; ++k) {
+            /* The rotation's inverse is its transpose. */
+            const sb_vec3 row = rotate(axes[k], cosine, sine);
+            const double place = sb_dot(row, sb_sub(at, body->translate));
+            area.min[k] = fmin(area.min[k], (place - within->margin) / body->scale);
+            area.max[k] = fmax(area.max[k], (place + within->margin) / body->scale);
+        }
+    }
+    return area;
+}
+
+static sb_status make_grid(const sb_body *body, const box *within, sb_mesh *mesh, sb_error *error)
+{
+    if (!sb_terrain_applies(body)) return sb_mesh_import_grid(body->file, 0, mesh, error);
+    const sb_terrain_area area = within ? area_of(body, within) : (sb_terrain_area){.min = {0}};
+    return sb_terrain_make(body, within ? &area : NULL, mesh, error);
+}
+
 /* Makes the body's meshes in the coordinates of its shape or file. */
-static sb_status make(const sb_body *body, double spacing, sb_mesh **meshes, size_t *count, sb_error *error)
+static sb_status make(const sb_body *body, double spacing, const box *within, sb_mesh **meshes, size_t *count,
+                      sb_error *error)
 {
     if (body->shape == SB_SHAPE_MESH) return sb_mesh_import(body->file, meshes, count, error);
     sb_mesh *one = sb_alloc(1, sizeof *one);
@@ -90,7 +126,7 @@ static sb_status make(const sb_body *body, double spacing, sb_mesh **meshes, siz
     case SB_SHAPE_MESH:
         break;
     case SB_SHAPE_GRID:
-        status = sb_mesh_import_grid(body->file, 0, one, error);
+        status = make_grid(body, within, one, error);
         break;
     case SB_SHAPE_BOX:
         status = sb_mesh_box(body->min, body->max, one, error);
@@ -203,18 +239,19 @@ static sb_status check_parts(const sb_body *body, size_t count, sb_error *error)
                    count, PARTS_MAX);
 }
 
-sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshes, size_t *count, sb_error *error)
+static sb_status from_body(const sb_body *body, double spacing, const box *within, sb_mesh **meshes, size_t *count,
+                           sb_error *error)
 {
     const bool from_file = body->shape == SB_SHAPE_MESH || body->shape == SB_SHAPE_GRID;
     sb_error reason = {0};
     sb_mesh *made = NULL;
     size_t made_count = 0;
     sb_status status = SB_OK;
-    if (from_file && !body->file)
+    if (from_file && !body->file && body->file_count == 0)
         status = sb_fail(&reason, SB_BAD_INPUT, "it has no file, expected one");
     else if (from_file && !(isfinite(body->scale) && body->scale > 0))
         status = sb_fail(&reason, SB_BAD_INPUT, "scale %g, expected > 0", body->scale);
-    if (status == SB_OK) status = make(body, spacing, &made, &made_count, &reason);
+    if (status == SB_OK) status = make(body, spacing, within, &made, &made_count, &reason);
     if (status == SB_OK) status = check_parts(body, made_count, &reason);
     if (status == SB_OK) status = check_rounding(body, spacing, made, made_count, &reason);
     for (size_t i = 0; i < made_count; ++i) transform(body, &made[i]);
@@ -233,4 +270,16 @@ sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshe
     *meshes = made;
     *count = made_count;
     return SB_OK;
+}
+
+sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshes, size_t *count, sb_error *error)
+{
+    return from_body(body, spacing, NULL, meshes, count, error);
+}
+
+sb_status sb_mesh_from_body_within(const sb_body *body, double spacing, sb_vec3 min, sb_vec3 max, double margin,
+                                   sb_mesh **meshes, size_t *count, sb_error *error)
+{
+    const box within = {min, max, margin};
+    return from_body(body, spacing, &within, meshes, count, error);
 }

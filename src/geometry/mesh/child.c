@@ -1,4 +1,4 @@
-/* Forks the child process that reads a mesh file, limits what it may do, and reports how it ended. */
+/* Forks the child process that reads a mesh file or a grid, limits what it may do, and reports how it ended. */
 #include "geometry/mesh/child.h"
 
 #include "base/clock.h"
@@ -55,7 +55,8 @@ static void reset_signals(void)
     sigprocmask(SIG_SETMASK, &none, NULL);
 }
 
-static _Noreturn void run_child(const char *path, int mesh, int to, const sb_mesh_limits *limits, uint64_t mapped)
+static _Noreturn void run_child(const char *path, int mesh, int to, const sb_mesh_limits *limits, uint64_t mapped,
+                                const sb_mesh_task *task)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     prctl(PR_SET_DUMPABLE, 0);
@@ -71,7 +72,7 @@ static _Noreturn void run_child(const char *path, int mesh, int to, const sb_mes
     limit(RLIMIT_CPU, limits->seconds);
     if (LIMIT_MEMORY) limit(RLIMIT_AS, mapped + limits->memory);
     alarm(limits->seconds * CLOCK_FACTOR);
-    sb_mesh_send_file(path, OWN_FILE, OWN_PIPE);
+    task->send(path, OWN_FILE, OWN_PIPE, task->wanted);
     _exit(0);
 }
 
@@ -99,27 +100,28 @@ static int finish_child(const sb_mesh_link *from, bool stop)
     return how;
 }
 
-static sb_status explain_end(const sb_mesh_link *from, int how, const sb_mesh_limits *limits, sb_error *error)
+static sb_status explain_end(const sb_mesh_link *from, int how, const sb_mesh_limits *limits, const char *what,
+                             sb_error *error)
 {
     int by = WIFSIGNALED(how) ? WTERMSIG(how) : 0;
     bool late = from->end == SB_MESH_LINK_LATE || by == SIGALRM;
     if (late || by == SIGXCPU)
         return sb_fail(error, SB_BAD_INPUT,
                        "%.500s: reading it timed out after %u s%s, expected a valid "
-                       "mesh file",
+                       "%s file",
                        from->path, late ? limits->seconds * CLOCK_FACTOR : limits->seconds,
-                       late ? "" : " of processor time");
+                       late ? "" : " of processor time", what);
     if (by)
         return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s: reading it crashed (%s), expected a valid mesh file that needs at most "
+                       "%.500s: reading it crashed (%s), expected a valid %s file that needs at most "
                        "%.1f GiB of memory",
-                       from->path, strsignal(by), (double)limits->memory / 0x1p30);
-    return sb_fail(error, SB_BAD_INPUT, "%.500s: reading it ended early, expected a valid mesh file", from->path);
+                       from->path, strsignal(by), what, (double)limits->memory / 0x1p30);
+    return sb_fail(error, SB_BAD_INPUT, "%.500s: reading it ended early, expected a valid %s file", from->path, what);
 }
 
 /* Forks with all signals blocked, so that no handler of the parent runs in the child. */
-static sb_status run_reader(const char *path, int mesh, const sb_mesh_limits *limits, sb_mesh_link *from,
-                            sb_error *error)
+static sb_status run_reader(const char *path, int mesh, const sb_mesh_limits *limits, const sb_mesh_task *task,
+                            sb_mesh_link *from, sb_error *error)
 {
     int ends[2];
     uint64_t mapped = mapped_bytes();
@@ -133,7 +135,7 @@ static sb_status run_reader(const char *path, int mesh, const sb_mesh_limits *li
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     pid_t child = high < 0 || file < 0 ? -1 : fork();
-    if (child == 0) run_child(path, file, high, limits, mapped);
+    if (child == 0) run_child(path, file, high, limits, mapped, task);
     int reason = errno;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     if (high >= 0) close(high);
@@ -179,23 +181,50 @@ static sb_status open_mesh(const char *path, int *mesh, uint64_t *size, sb_error
     return status;
 }
 
-static sb_status import_open(const char *path, int mesh, const sb_mesh_limits *limits, sb_mesh **meshes, size_t *count,
-                             sb_error *error)
+sb_status sb_mesh_child_run(const char *path, int file, const sb_mesh_limits *limits, const sb_mesh_task *task,
+                            sb_error *error)
 {
     sb_mesh_link from = {0};
-    sb_status status = run_reader(path, mesh, limits, &from, error);
+    char doing[40];
+    sb_status status = run_reader(path, file, limits, task, &from, error);
     if (status != SB_OK) return status;
-    sb_mesh *received = NULL;
-    size_t found = 0;
-    status = sb_mesh_receive(&from, &received, &found, error);
+    status = task->receive(&from, task->wanted, task->into, error);
     int how = finish_child(&from, status != SB_OK && from.end != SB_MESH_LINK_CLOSED);
     close(from.pipe);
     if (from.watch >= 0) close(from.watch);
-    if (from.end == SB_MESH_LINK_STOPPED) return sb_stop_fail(error, "while a mesh was read");
-    if (from.end != SB_MESH_LINK_OK) return explain_end(&from, how, limits, error);
+    snprintf(doing, sizeof doing, "while a %s was read", task->what);
+    if (from.end == SB_MESH_LINK_STOPPED) return sb_stop_fail(error, doing);
+    if (from.end != SB_MESH_LINK_OK) return explain_end(&from, how, limits, task->what, error);
+    return status;
+}
+
+typedef struct received {
+    sb_mesh *meshes;
+    size_t count;
+} received;
+
+static void send_meshes(const char *path, int file, int pipe, const void *wanted)
+{
+    (void)wanted;
+    sb_mesh_send_file(path, file, pipe);
+}
+
+static sb_status receive_meshes(sb_mesh_link *from, const void *wanted, void *into, sb_error *error)
+{
+    (void)wanted;
+    received *to = into;
+    return sb_mesh_receive(from, &to->meshes, &to->count, error);
+}
+
+static sb_status import_open(const char *path, int mesh, const sb_mesh_limits *limits, sb_mesh **meshes, size_t *count,
+                             sb_error *error)
+{
+    received made = {0};
+    const sb_mesh_task task = {"mesh", send_meshes, receive_meshes, NULL, &made};
+    sb_status status = sb_mesh_child_run(path, mesh, limits, &task, error);
     if (status != SB_OK) return status;
-    *meshes = received;
-    *count = found;
+    *meshes = made.meshes;
+    *count = made.count;
     return SB_OK;
 }
 

@@ -55,6 +55,31 @@ typedef struct sb_mesh_limits {
 sb_status sb_mesh_import_within(const char *path, const sb_mesh_limits *limits, sb_mesh **meshes, size_t *count,
                                 sb_error *error);
 
+/* What a child reads, and how its bytes are received. */
+typedef struct sb_mesh_task {
+    const char *what; /* "mesh" or "grid", used in messages */
+    /* Runs in the child: reads the open descriptor `file` and writes to the pipe. */
+    void (*send)(const char *path, int file, int pipe, const void *wanted);
+    /* Runs in the parent, under the rules of sb_mesh_receive. On failure it leaves nothing to free in *into. */
+    sb_status (*receive)(sb_mesh_link *from, const void *wanted, void *into, sb_error *error);
+    const void *wanted; /* passed to both */
+    void *into;
+} sb_mesh_task;
+
+/* Runs the task on an open file in a child process with limits. SB_BAD_INPUT "file: what, expected" if the child
+   crashes or takes too long, SB_INTERRUPTED by a signal, otherwise the status of task->receive. */
+sb_status sb_mesh_child_run(const char *path, int file, const sb_mesh_limits *limits, const sb_mesh_task *task,
+                            sb_error *error);
+
+/* Receives exactly `size` bytes. Returns false if the child ended early or timed out: from->end says which. */
+bool sb_mesh_link_receive(sb_mesh_link *from, void *bytes, size_t size);
+
+/* Replaces invalid and control characters of a text that the child sent, so that it can be part of a message. */
+void sb_mesh_link_clean(char *text);
+
+/* Writes all bytes to the pipe. Returns false if the parent closed it. */
+bool sb_mesh_link_send(int pipe, const void *bytes, size_t size);
+
 /* Runs in the child: reads the file, open as descriptor `mesh`, and writes the records to the pipe. */
 void sb_mesh_send_file(const char *path, int mesh, int pipe);
 

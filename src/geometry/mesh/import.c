@@ -33,18 +33,22 @@ typedef struct sender {
     bool failed; /* a failure was sent, or the pipe is closed */
 } sender;
 
-static void send_bytes(sender *to, const void *bytes, size_t size)
+bool sb_mesh_link_send(int pipe, const void *bytes, size_t size)
 {
     const char *at = bytes;
-    while (size > 0 && !to->failed) {
-        ssize_t written = write(to->pipe, at, size);
-        if (written >= 0) {
-            at += written;
-            size -= (size_t)written;
-        } else if (errno != EINTR) {
-            to->failed = true;
-        }
+    while (size > 0) {
+        ssize_t written = write(pipe, at, size);
+        if (written < 0 && errno != EINTR) return false;
+        if (written < 0) continue;
+        at += written;
+        size -= (size_t)written;
     }
+    return true;
+}
+
+static void send_bytes(sender *to, const void *bytes, size_t size)
+{
+    to->failed = to->failed || !sb_mesh_link_send(to->pipe, bytes, size);
 }
 
 static void send_record(sender *to, sb_mesh_record_kind kind, uint64_t vertices, uint64_t triangles, const char *name)

@@ -19,5 +19,6 @@ void sb_mesh_free(sb_mesh *mesh)
     sb_free(mesh->vertices);
     sb_free(mesh->triangles);
     sb_free(mesh->holes);
+    sb_free(mesh->told);
     *mesh = (sb_mesh){0};
 }

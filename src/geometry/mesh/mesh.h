@@ -25,6 +25,7 @@ typedef struct sb_mesh {
     size_t node_count; /* number of vertices that are nodes of a grid; they come first */
     size_t hole_count; /* number of the grid's nodes without a height */
     sb_vec3 *holes;    /* positions of these nodes, z has no meaning */
+    char *told;        /* lines that describe a terrain from files, for `check`; NULL: none */
     double rounded;    /* m, rounding error of the file's coordinates in single precision */
 } sb_mesh;
 
@@ -100,5 +101,10 @@ sb_status sb_mesh_basin(sb_vec3 min, sb_vec3 max, sb_mesh *mesh, sb_error *error
    precision rounds them by more than a quarter of the spacing. The caller owns the meshes as those of
    sb_mesh_import. */
 sb_status sb_mesh_from_body(const sb_body *body, double spacing, sb_mesh **meshes, size_t *count, sb_error *error);
+
+/* The same; of a terrain that is read in part (grid/terrain.h), only what the box from min to max (m, scene
+   coordinates) needs, and `margin` (m) around it. */
+sb_status sb_mesh_from_body_within(const sb_body *body, double spacing, sb_vec3 min, sb_vec3 max, double margin,
+                                   sb_mesh **meshes, size_t *count, sb_error *error);
 
 #endif

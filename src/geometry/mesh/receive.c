@@ -44,7 +44,7 @@ static void await(sb_mesh_link *from)
 }
 
 /* Reads exactly `size` bytes. Returns false if the child ended early, timed out or sent too much. */
-static bool receive(sb_mesh_link *from, void *bytes, size_t size)
+bool sb_mesh_link_receive(sb_mesh_link *from, void *bytes, size_t size)
 {
     char *at = bytes;
     while (size > 0) {
@@ -71,8 +71,7 @@ static size_t character_length(const unsigned char *c)
     return length;
 }
 
-/* Replaces invalid and control characters, so that the text can be part of a message. */
-static void clean_text(char *text)
+void sb_mesh_link_clean(char *text)
 {
     for (char *c = text; *c;) {
         const size_t length = character_length((unsigned char *)c);
@@ -88,8 +87,8 @@ static sb_status receive_failure(sb_mesh_link *from, const sb_mesh_record *recor
 {
     char text[FAILURE_TEXT_MAX + 1] = "";
     size_t size = record->vertices < FAILURE_TEXT_MAX ? (size_t)record->vertices : FAILURE_TEXT_MAX;
-    if (!receive(from, text, size)) text[0] = '\0';
-    clean_text(text);
+    if (!sb_mesh_link_receive(from, text, size)) text[0] = '\0';
+    sb_mesh_link_clean(text);
     return sb_fail(error, SB_BAD_INPUT, "%.500s: not readable as a mesh: %s", from->path,
                    text[0] ? text : "no reason given");
 }
@@ -107,8 +106,8 @@ static sb_status receive_mesh(sb_mesh_link *from, const sb_mesh_record *record, 
     memcpy(mesh->name, record->name, sizeof mesh->name - 1);
     memcpy(mesh->original, mesh->name, sizeof mesh->original);
     if (!sb_name_fit(mesh->name)) mesh->original[0] = '\0';
-    if (!receive(from, mesh->vertices, record->vertices * vertex) ||
-        !receive(from, mesh->triangles, record->triangles * triangle))
+    if (!sb_mesh_link_receive(from, mesh->vertices, record->vertices * vertex) ||
+        !sb_mesh_link_receive(from, mesh->triangles, record->triangles * triangle))
         return SB_FAILED; /* the child's exit status gives the reason */
     sb_error reason = {0};
     status = sb_mesh_weld(mesh, &reason);
@@ -133,7 +132,7 @@ static sb_status receive_all(sb_mesh_link *from, mesh_list *list, sb_error *erro
 {
     for (;;) {
         sb_mesh_record record;
-        if (!receive(from, &record, sizeof record)) return SB_FAILED;
+        if (!sb_mesh_link_receive(from, &record, sizeof record)) return SB_FAILED;
         if (record.magic != SB_MESH_RECORD_MAGIC || list->count >= MESHES_MAX)
             return sb_fail(error, SB_BAD_INPUT, "%.500s: the process that reads it sent invalid data, expected a mesh",
                            from->path);

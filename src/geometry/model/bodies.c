@@ -134,7 +134,10 @@ static sb_status add_meshes(const sb_scene *scene, const sb_body *from, sb_model
 {
     sb_mesh *meshes = NULL;
     size_t count = 0;
-    sb_status status = sb_mesh_from_body(from, scene->resolution, &meshes, &count, error);
+    /* Solids are searched for, and terrain may have to continue, as far as the support radius beyond the domain. */
+    const double margin = 4 * scene->numerics.support * scene->resolution;
+    sb_status status = sb_mesh_from_body_within(from, scene->resolution, scene->domain.min, scene->domain.max, margin,
+                                                &meshes, &count, error);
     if (status != SB_OK) return status;
     status = warn_names(from, meshes, count, model, error);
     for (size_t i = 0; i < count && status == SB_OK; ++i) {

@@ -1,0 +1,149 @@
+/* A coast from public kinds of files, by the steps of docs/guide.md: a GeoTIFF in UTM with voids and a vertical system,
+   a finer text grid with another datum, and a NetCDF file in degrees. */
+#include "grid_samples.h"
+#include "program.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { EAST = 547000, NORTH = 4250000 };
+
+/* m: the beach rises by 1 in 10 towards the east and meets the sea's level at x = 60 of the scene. */
+static double beach(double x, double y)
+{
+    if (hypot(x - EAST - 80, y - NORTH - 20) < 12) return (double)NAN; /* a void beside the beach */
+    return 0.1 * (x - EAST - 60);
+}
+
+/* The same from a chart whose zero is 1.5 m below. */
+static double chart(double x, double y)
+{
+    (void)y;
+    return 0.1 * (x - EAST - 60) + 1.5;
+}
+
+static double degrees(double x, double y)
+{
+    (void)y;
+    return -5 + 200 * (x - 141.5357);
+}
+
+static const grid_sample survey = {.columns = 60,
+                                   .rows = 50,
+                                   .x = EAST - 100,
+                                   .y = NORTH - 100,
+                                   .dx = 5,
+                                   .dy = 5,
+                                   .height = beach,
+                                   .nodata = -9999,
+                                   .epsg = 32654,
+                                   .vertical = 5773,
+                                   .tile = 16};
+
+static void write_chart(const char *path)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "ncols 30\nnrows 30\nxllcenter %d\nyllcenter %d\ncellsize 1\n", EAST + 20, NORTH + 5);
+    for (int j = 0; j < 30; j++)
+        for (int i = 0; i < 30; i++) fprintf(file, "%.6f\n", chart(EAST + 20 + i, 0));
+    assert_int_equal(fclose(file), 0);
+}
+
+static void write_coast(const char *name, const char *grid)
+{
+    char text[1024];
+    snprintf(text, sizeof text,
+             "title: Coast\nresolution: 2\nduration: 0.1\ndomain: {min: [0, 0, -7], max: [100, 40, 6]}\n"
+             "water: {level: 0, seed: [10, 20, -2]}\nbodies:\n  - {name: coast, shape: grid, %s}\n"
+             "output: {plots: false}\n",
+             grid);
+    write_text(name, text);
+}
+
+static void a_stack_with_voids_and_a_datum(void **state)
+{
+    (void)state;
+    grid_sample_tiff(&survey, in_folder("survey.tif"));
+    write_chart(in_folder("chart.asc"));
+    write_coast("coast.yaml", "files: [survey.tif, {file: chart.asc, datum: -1.5}], origin: [547000, 4250000], "
+                              "voids: fill");
+    outcome o = program_run((const char *const[]){"check", "coast.yaml", NULL});
+    if (o.status != 0) fail_msg("%s", o.err);
+    assert_contains(o.out, "terrain \"coast\"");
+    assert_contains(o.out, "survey.tif: EPSG:32654; 60 x 50 nodes, 5 x 5 m; from (546897.5, 4249897.5)");
+    assert_contains(o.out, "vertical datum: EPSG:5773");
+    assert_contains(o.out, "chart.asc: no coordinate system, taken as metres");
+    assert_contains(o.out, "-1.5 m added to its heights");
+    assert_contains(o.out, "interpolated from the heights around them");
+    assert_null(strstr(o.out, "warning: body \"coast\""));
+    outcome_free(&o);
+    o = program_run((const char *const[]){"check", "coast.yaml", "--set", "bodies[0].voids=keep", NULL});
+    assert_contains(o.out, "kept as holes; `voids: fill` fills them");
+    assert_contains(o.out, "has no height (nodata)");
+    outcome_free(&o);
+    o = program_run((const char *const[]){"run", "coast.yaml", "--out", "coast", NULL});
+    if (o.status != 0) fail_msg("%s", o.err);
+    outcome_free(&o);
+}
+
+static void degrees_are_projected(void **state)
+{
+    (void)state;
+    const grid_sample sample = {.columns = 60,
+                                .rows = 60,
+                                .x = 141.53,
+                                .y = 38.39,
+                                .dx = 0.0002,
+                                .dy = 0.0002,
+                                .height = degrees,
+                                .geographic = true,
+                                .northward = true,
+                                .standard_name = "height_above_mean_sea_level"};
+    grid_sample_netcdf(&sample, in_folder("degrees.nc"));
+    write_coast("degrees.yaml", "file: degrees.nc, origin: [546780, 4249750]");
+    outcome o = program_run((const char *const[]){"check", "degrees.yaml", NULL});
+    if (o.status != 0) fail_msg("%s", o.err);
+    assert_contains(o.out, "degrees.nc: EPSG:4326, projected; 60 x 60 nodes, 0.0002 x 0.0002 degrees");
+    assert_contains(o.out, "ground: EPSG:32654, the UTM zone of the finest file");
+    assert_contains(o.out, "vertical datum: height_above_mean_sea_level");
+    outcome_free(&o);
+    o = program_run((const char *const[]){"check", "degrees.yaml", "--json", NULL});
+    assert_contains(o.out, "\"terrain\": \"degrees.nc: EPSG:4326, projected");
+    outcome_free(&o);
+}
+
+static void expect_refusal(const char *grid, const char *name, const char *expected)
+{
+    write_coast("bad.yaml", grid);
+    outcome o = program_run((const char *const[]){"check", "bad.yaml", NULL});
+    assert_int_equal(o.status, 1);
+    assert_one_line(o.err, name);
+    assert_contains(o.err, expected);
+    outcome_free(&o);
+}
+
+static void refusals_name_the_remedy(void **state)
+{
+    (void)state;
+    grid_sample_tiff(&survey, in_folder("survey.tif"));
+    expect_refusal("file: survey.tif", "survey.tif", "the key origin is the place that becomes (0, 0)");
+    expect_refusal("file: survey.tif, files: [survey.tif]", "file", "files");
+    expect_refusal("files: []", "bad.yaml", "files");
+    expect_refusal("files: [survey.tif, none.asc]", "files[1].file", "none.asc");
+    expect_refusal("file: survey.tif, window: {min: [3, 0], max: [2, 9]}", "window.max", "expected min < max");
+    expect_refusal("file: survey.tif, resample: 0.0001, origin: [547000, 4250000]", "survey.tif",
+                   "a smaller window, or a larger resample");
+    expect_refusal("file: survey.tif, projection: EPSG:6668", "EPSG:6668", "is not in metres");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_stack_with_voids_and_a_datum),
+        cmocka_unit_test(degrees_are_projected),
+        cmocka_unit_test(refusals_name_the_remedy),
+    };
+    return cmocka_run_group_tests(tests, program_setup, program_teardown);
+}
