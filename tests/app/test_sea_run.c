@@ -12,7 +12,8 @@
     "title: t\ndimensions: 2\nresolution: 0.05\nduration: 4\nnumerics: {settle_steps: 5}\noutput: {plots: false}\n"    \
     "measure: {interval: 0.05, gauges: [{name: g, x: 2.8}],\n"                                                         \
     "          planes: [{name: line, from: [2], record: true, record_interval: 0.05}]}\n"
-#define SEA "water: {level: 0.4, seed: [2.5, 0.2]}\ndomain: {min: [0, 0], max: [4, 0.8], sides: {x_min: sea, x_max: sea}}\n"
+#define SEA                                                                                                            \
+    "water: {level: 0.4, seed: [2.5, 0.2]}\ndomain: {min: [0, 0], max: [4, 0.8], sides: {x_min: sea, x_max: sea}}\n"
 #define SOLITARY "sea: {source: theory, wave: solitary, height: 0.08, depth: 0.4}\n" /* at x = 0 after 2.5 s */
 
 /* A surface that rises by `height` in 2 s, as a long wave does that comes in, until `end`. */
@@ -71,7 +72,8 @@ static void every_source_comes_in(void **state)
     assert_near(highest_of("regular"), 0.02, 0.01);
 
     write_table("table.csv", 0.05, 4);
-    check_and_run(HEAD SEA "sea: {source: table, file: table.csv, sides: {x_max: still}}\n", "a table of 1 point", "table");
+    check_and_run(HEAD SEA "sea: {source: table, file: table.csv, sides: {x_max: still}}\n", "a table of 1 point",
+                  "table");
     assert_near(highest_of("table"), 0.05, 0.01);
 }
 
