@@ -37,7 +37,7 @@ SB_INLINE double smaller_of_four(const double *v, ptrdiff_t up)
 }
 
 /* A cell has a pressure, 1, when neither it nor a neighbour breaks; otherwise 0. Beside dry cells, cliffs and abrupt
-   changes of depth it has none and bears no force of its neighbours' pressures, -1. cliff: m from cell to cell. */
+   changes of depth it has none and no force of its neighbours' pressures acts on it, -1. cliff: m from cell to cell. */
 SB_MULTIVERSION static void find_active(line l, double cliff, size_t count)
 {
 #pragma omp simd

@@ -196,10 +196,10 @@ SB_MULTIVERSION static void find_forces(line l, size_t count)
         const double bx = bed_slope(l, i, 1), by = bed_slope(l, i, l.up);
         const double px = (l.pressure[i + 1] - l.pressure[i - 1]) * half;
         const double py = (l.pressure[i + l.up] - l.pressure[i - l.up]) * half;
-        const double bears = l.active[i] >= 0 ? 1 : 0, active = l.active[i] > 0 ? 1 : 0;
+        const double loaded = l.active[i] >= 0 ? 1 : 0, active = l.active[i] > 0 ? 1 : 0;
         const double bottom = active * (1.5 * l.pressure[i] / h + 0.25 * (h * bed_rate(l, i) - px * bx - py * by));
-        l.force_x[i] = -bears * (px + bottom * bx);
-        l.force_y[i] = -bears * (py + bottom * by);
+        l.force_x[i] = -loaded * (px + bottom * bx);
+        l.force_y[i] = -loaded * (py + bottom * by);
     }
 }
 

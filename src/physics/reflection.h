@@ -26,7 +26,7 @@ typedef struct sb_split {
 sb_split sb_split_of(const double *x, const double *cosines, const double *sines, size_t count, double number);
 
 /* 1 - |sum of exp(2 i k x)|/count: 0 where all places lie at half wavelengths and the two waves cannot be told apart, 1
-   where they are told apart best. Independent errors e of the gauges
+   where they can be separated best. Independent errors e of the gauges
    give errors e/sqrt(count s(2 - s)) of the amplitudes, with s the separation. */
 double sb_split_separation(const double *x, size_t count, double number);
 
