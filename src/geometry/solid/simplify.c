@@ -16,6 +16,14 @@ static const double FIRST = 2, NEXT = 0.7;
 static const double SLIVER = 1e-3;
 enum { ATTEMPTS_MAX = 12 };
 
+/* What is simplified. */
+typedef struct source {
+    const sb_mesh *mesh;
+    sb_role role;
+    float *at;       /* coordinates for the library */
+    sb_solid *solid; /* of the mesh */
+} source;
+
 /* Coordinates in single precision from the mesh's corner, as the library takes them. NULL without memory. */
 static float *single_precision(const sb_mesh *mesh)
 {
@@ -55,7 +63,14 @@ static sb_status take(const sb_mesh *mesh, const unsigned *corner, size_t corner
     return status;
 }
 
-/* Whether all vertices of a mesh and the middles of its edges are within the tolerance of a solid's surface. */
+static sb_vec3 middle_of(const sb_mesh *mesh, const uint32_t corner[3])
+{
+    const sb_vec3 sum = sb_add(sb_add(mesh->vertices[corner[0]], mesh->vertices[corner[1]]), mesh->vertices[corner[2]]);
+    return sb_scale(sum, 1 / 3.0);
+}
+
+/* Whether all vertices of a mesh and the middles of its edges and triangles are within the tolerance of a solid's
+   surface. */
 static bool is_near(const sb_mesh *mesh, const sb_solid *solid, double tolerance)
 {
     bool near = true;
@@ -66,22 +81,24 @@ static bool is_near(const sb_mesh *mesh, const sb_solid *solid, double tolerance
             const sb_vec3 from = mesh->vertices[corner[k]], to = mesh->vertices[corner[(k + 1) % 3]];
             const sb_vec3 middle = sb_scale(sb_add(from, to), 0.5);
             near = sb_solid_distance(solid, from, tolerance, NULL, NULL) < tolerance &&
-                   sb_solid_distance(solid, middle, tolerance, NULL, NULL) < tolerance;
+                   sb_solid_distance(solid, middle, tolerance, NULL, NULL) < tolerance &&
+                   (k > 0 || sb_solid_distance(solid, middle_of(mesh, corner), tolerance, NULL, NULL) < tolerance);
         }
     return near;
 }
 
 /* One attempt, with a bound on the mean error in m and options of the library. *near: whether the result is within the
    tolerance. */
-static sb_status attempt(const sb_mesh *mesh, sb_role role, const float *at, double bound, unsigned options,
-                         double tolerance, sb_mesh *simple, bool *near, sb_error *error)
+static sb_status attempt(const source *from, double bound, unsigned options, double tolerance, sb_mesh *simple,
+                         bool *near, sb_error *error)
 {
-    const size_t corners = 3 * mesh->triangle_count;
+    const sb_mesh *mesh = from->mesh;
+    const size_t corners = 3 * mesh->triangle_count, vertices = mesh->vertex_count, stride = 3 * sizeof *from->at;
     unsigned *corner = sb_alloc_untouched(corners, sizeof *corner);
     if (!corner) return sb_fail_memory(error, "a mesh");
-    const float scale = meshopt_simplifyScale(at, mesh->vertex_count, 3 * sizeof *at);
-    const size_t left = scale > 0 ? meshopt_simplify(corner, mesh->triangles[0], corners, at, mesh->vertex_count,
-                                                     3 * sizeof *at, 0, (float)bound / scale, options, NULL)
+    const float scale = meshopt_simplifyScale(from->at, vertices, stride);
+    const size_t left = scale > 0 ? meshopt_simplify(corner, mesh->triangles[0], corners, from->at, vertices, stride, 0,
+                                                     (float)bound / scale, options, NULL)
                                   : corners;
     sb_status status = SB_OK;
     *near = true;
@@ -89,8 +106,8 @@ static sb_status attempt(const sb_mesh *mesh, sb_role role, const float *at, dou
         sb_solid *solid = NULL;
         status = take(mesh, corner, left, simple, error);
         if (status == SB_OK) status = sb_mesh_remove_slivers(simple, SLIVER * tolerance, error);
-        if (status == SB_OK) status = sb_solid_create(simple, role, &solid, error);
-        *near = status == SB_OK && is_near(mesh, solid, tolerance);
+        if (status == SB_OK) status = sb_solid_create(simple, from->role, &solid, error);
+        *near = status == SB_OK && is_near(mesh, solid, tolerance) && is_near(simple, from->solid, tolerance);
         sb_solid_destroy(solid);
         if (!*near) sb_mesh_free(simple);
     } else {
@@ -101,15 +118,14 @@ static sb_status attempt(const sb_mesh *mesh, sb_role role, const float *at, dou
 }
 
 /* Leaves *simple empty if nothing can be left out. */
-static sb_status simplify(const sb_mesh *mesh, sb_role role, const float *at, unsigned options, double tolerance,
-                          sb_mesh *simple, sb_error *error)
+static sb_status simplify(const source *from, unsigned options, double tolerance, sb_mesh *simple, sb_error *error)
 {
     sb_status status = SB_OK;
     bool near = false;
     double bound = FIRST * tolerance;
     *simple = (sb_mesh){0};
     for (int k = 0; k < ATTEMPTS_MAX && status == SB_OK && !near; ++k, bound *= NEXT)
-        status = attempt(mesh, role, at, bound, options, tolerance, simple, &near, error);
+        status = attempt(from, bound, options, tolerance, simple, &near, error);
     return status;
 }
 
@@ -117,19 +133,20 @@ sb_status sb_mesh_simplify(const sb_mesh *mesh, sb_role role, double tolerance, 
 {
     *simple = (sb_mesh){0};
     if (mesh->triangle_count == 0) return SB_OK;
-    float *at = single_precision(mesh);
-    sb_status status = at ? SB_OK : sb_fail_memory(error, "a mesh");
-    if (status == SB_OK) status = simplify(mesh, role, at, meshopt_SimplifyLockBorder, tolerance, simple, error);
+    source from = {.mesh = mesh, .role = role, .at = single_precision(mesh)};
+    sb_status status = from.at ? sb_solid_create(mesh, role, &from.solid, error) : sb_fail_memory(error, "a mesh");
+    if (status == SB_OK) status = simplify(&from, meshopt_SimplifyLockBorder, tolerance, simple, error);
     /* All corners of an open border may be too many, but without them a corner of the border may be lost. */
     if (status == SB_OK && (mesh->open_surface || role == SB_ROLE_TERRAIN)) {
         sb_mesh other;
-        status = simplify(mesh, role, at, 0, tolerance, &other, error);
+        status = simplify(&from, 0, tolerance, &other, error);
         const bool better =
             other.triangle_count > 0 && (simple->triangle_count == 0 || other.triangle_count < simple->triangle_count);
         sb_mesh_free(better ? simple : &other);
         if (better) *simple = other;
     }
     if (status != SB_OK) sb_mesh_free(simple);
-    sb_free(at);
+    sb_solid_destroy(from.solid);
+    sb_free(from.at);
     return status;
 }
