@@ -73,7 +73,8 @@ static void visit_warnings(const sb_scene *scene, const sb_model *model, sb_warn
 {
     for (size_t w = 0; w < model->warning_count; w++) visit(context, model->warnings[w]);
     sb_scene_warnings(scene, visit, context);
-    sb_facet_warnings(scene, model, visit, context);
+    sb_error walls = {0};
+    if (sb_facet_warnings(scene, model, visit, context, &walls) != SB_OK) visit(context, walls.text);
     sb_team_warnings(visit, context);
     /* Only a warning, because the run may be meant for another machine. */
     sb_error room = {0};

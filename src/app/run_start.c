@@ -204,13 +204,14 @@ static void note_mesh_guards(run *r)
     if (reads && gaps) sb_runlog_event(r->log, "skipped", "%s", gaps);
 }
 
-static void note_start(run *r)
+static sb_status note_start(run *r, sb_error *error)
 {
     sb_run_report(r, "%zu fluid and %zu boundary particles, %zu bodies", r->model.fluid_count, r->model.wall_count,
                   r->model.body_count);
     sb_runlog_start(r->log, r->scene, &r->model, omp_get_max_threads(), sb_sim_bytes(r->sim));
     sb_scene_warnings(r->scene, warn, r);
-    sb_facet_warnings(r->scene, &r->model, warn, r);
+    const sb_status status = sb_facet_warnings(r->scene, &r->model, warn, r, error);
+    if (status != SB_OK) return status;
     if (r->earlier.others == 1)
         sb_run_warn(r, "%.500s/%.300s: is not a file of a run; it is kept", r->directory, r->earlier.first_other);
     else if (r->earlier.others > 1)
@@ -221,6 +222,7 @@ static void note_start(run *r)
     note_mesh_guards(r);
     sb_runlog_skipped(r->log, sb_sim_skipped(r->sim));
     r->setup_seconds = sb_progress_wall(&r->progress);
+    return SB_OK;
 }
 
 /* The command line as it was given, so that a report can show it. */
@@ -358,6 +360,6 @@ sb_status sb_run_start(run *r, const sb_run_options *options, sb_error *error)
     if (from == SETTLING)
         note_settling(r);
     else
-        note_start(r);
-    return begin(r, error);
+        status = note_start(r, error);
+    return status == SB_OK ? begin(r, error) : status;
 }

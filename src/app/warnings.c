@@ -69,12 +69,13 @@ void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *con
     }
 }
 
-void sb_facet_warnings(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context)
+sb_status sb_facet_warnings(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context,
+                            sb_error *error)
 {
     char text[400], more[64] = "";
     sb_crowding found;
-    sb_error error = {0};
-    if (sb_sim_find_crowding(scene, model, &found, &error) != SB_OK || found.places == 0) return;
+    const sb_status status = sb_sim_find_crowding(scene, model, &found, error);
+    if (status != SB_OK || found.places == 0) return status;
     if (found.places > 1) snprintf(more, sizeof more, " and in %zu other places", found.places - 1);
     snprintf(
         text, sizeof text,
@@ -82,4 +83,5 @@ void sb_facet_warnings(const sb_scene *scene, const sb_model *model, sb_warning_
         "m: the run ends when water comes there; expected smoother meshes, or numerics.walls: particles",
         found.first.x, found.first.y, found.first.z, more, found.facets, found.edges, found.width);
     visit(context, text);
+    return SB_OK;
 }

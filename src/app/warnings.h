@@ -9,7 +9,9 @@ typedef void sb_warning_visit(void *context, const char *text);
 /* Calls visit for each warning, a line without its newline. Warnings about meshes and sampling are in the model. */
 void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context);
 
-/* The same for walls that reflect water and have more facets than the simulation can handle. */
-void sb_facet_warnings(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context);
+/* The same for walls that reflect water and have more facets than the simulation can handle. SB_FAILED without memory.
+ */
+sb_status sb_facet_warnings(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context,
+                            sb_error *error);
 
 #endif

@@ -139,7 +139,8 @@ sb_status sb_sim_find_crowding(const sb_scene *scene, const sb_model *model, sb_
     if (status == SB_OK) status = sb_mirrors_create(sim, error);
     if (status == SB_OK) {
         found->width = (double)sim->constant.support;
-        found->places = sb_mirrors_crowded(sim, &found->first);
+        if (sb_mirrors_crowded(sim, &found->places, &found->first) != 0)
+            status = sb_fail_memory(error, "facets of walls");
     }
     sb_walls_destroy(sim);
     sb_strip_destroy(sim);

@@ -369,18 +369,19 @@ static bool is_crowded(const sb_sim *sim, const box *b, size_t at, size_t end, s
     return false;
 }
 
-size_t sb_mirrors_crowded(const sb_sim *sim, sb_vec3 *place)
+int sb_mirrors_crowded(const sb_sim *sim, size_t *count, sb_vec3 *place)
 {
     const sb_mirrors *m = &sim->walls.mirrors;
     sb_near *near = sb_alloc(1, sizeof *near);
-    size_t count = 0;
-    for (size_t at = 0, end = 0; near && at < m->entries; at = end) {
+    if (!near) return -1;
+    *count = 0;
+    for (size_t at = 0, end = 0; at < m->entries; at = end) {
         while (end < m->entries && m->entry[end].block == m->entry[at].block) end++;
         const box b = box_of(sim, m->entry[at].block);
         sb_vec3 found;
-        if (is_crowded(sim, &b, at, end, near, &found) && count++ == 0)
+        if (is_crowded(sim, &b, at, end, near, &found) && (*count)++ == 0)
             *place = sb_add(sim->space.origin, sb_scale(found, sim->space.quantum));
     }
     sb_free(near);
-    return count;
+    return 0;
 }

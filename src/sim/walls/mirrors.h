@@ -63,9 +63,9 @@ size_t sb_mirrors_bytes(const sb_sim *sim);
 /* Finds the facets within a support radius of a group. low, high: the box of its particles, from the corner. */
 void sb_mirrors_near(const sb_sim *sim, const sb_group *group, sb_f4 low, sb_f4 high, sb_near *near);
 
-/* Returns the number of blocks in which there are more facets or edges near a single place than sb_near holds; moving
-   bodies as they are placed. *place: the first such place, m. 0 also without memory. */
-size_t sb_mirrors_crowded(const sb_sim *sim, sb_vec3 *place);
+/* *count: the number of blocks in which there are more facets or edges near a single place than sb_near holds; moving
+   bodies as they are placed. *place: the first such place, m. Returns 0, or -1 without memory. */
+int sb_mirrors_crowded(const sb_sim *sim, size_t *count, sb_vec3 *place);
 
 /* A contact of particle i with the facet of a plane of its group. */
 typedef struct sb_facet_contact {
