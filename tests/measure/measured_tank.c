@@ -106,7 +106,7 @@ static void wall_probes_add_up_to_the_force(void **state)
     enum { PROBES = 38 };
     const double spacing = 0.05;
     tank t;
-    tank_make(&t, 2, spacing, sb_vec(2, 1, 2), 1, 1, 0);
+    tank_of_particles(&t, 2, spacing, sb_vec(2, 1, 2), 1, 1, 0);
     tank_split_patch(&t, sb_vec(2, -1, 0), sb_vec(3, 1, 2));
     sb_probe probes[PROBES];
     for (int k = 0; k < PROBES; k++) probes[k] = (sb_probe){"wall", {2, 0, (k + 0.5) * spacing}, 0};

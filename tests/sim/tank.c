@@ -63,12 +63,13 @@ static void build(tank *t)
     snprintf(sides, sizeof sides, "{x_min: %s, x_max: %s, y_min: %s, y_max: %s, z_max: wall}",
              f->repeats[0] ? "periodic" : "wall", f->repeats[0] ? "periodic" : "wall",
              f->repeats[1] ? "periodic" : "wall", f->repeats[1] ? "periodic" : "wall");
-    sb_override set[] = {{"dimensions", flat},       {"resolution", spacing}, {"domain.min", low},
-                         {"domain.max", max},        {"domain.sides", sides}, {"water", water},
-                         {"numerics.jitter", jitter}};
+    sb_override set[] = {{"dimensions", flat},        {"resolution", spacing},        {"domain.min", low},
+                         {"domain.max", max},         {"domain.sides", sides},        {"water", water},
+                         {"numerics.jitter", jitter}, {"numerics.walls", "particles"}};
+    const size_t keys = sizeof set / sizeof *set - (f->particles ? 0 : 1);
     sb_error error = {0};
-    if (sb_scene_read(SB_SOURCE_DIR "/tests/sim/tank.yaml", tank_preset_names[f->preset], set, sizeof set / sizeof *set,
-                      &t->scene, &error) != SB_OK ||
+    if (sb_scene_read(SB_SOURCE_DIR "/tests/sim/tank.yaml", tank_preset_names[f->preset], set, keys, &t->scene,
+                      &error) != SB_OK ||
         sb_model_build(&t->scene, &t->model, &error) != SB_OK)
         fprintf(stderr, "no tank: %s\n", error.text);
     need(t->model.body_count == 1);
@@ -93,7 +94,13 @@ static void rebuild(tank *t)
 
 void tank_make(tank *t, int dimensions, double dr, sb_vec3 size, double wet_length, double depth, double jitter)
 {
-    *t = (tank){.form = {SB_PRESET_DEFAULT, dimensions, dr, size, wet_length, depth, jitter, {false, false}}};
+    *t = (tank){.form = {SB_PRESET_DEFAULT, dimensions, dr, size, wet_length, depth, jitter, {false, false}, false}};
+    build(t);
+}
+
+void tank_of_particles(tank *t, int dimensions, double dr, sb_vec3 size, double wet_length, double depth, double jitter)
+{
+    *t = (tank){.form = {SB_PRESET_DEFAULT, dimensions, dr, size, wet_length, depth, jitter, {false, false}, true}};
     build(t);
 }
 
@@ -157,6 +164,11 @@ void tank_shift(tank *t, sb_vec3 by)
     for (size_t i = 0; i < m->fluid_count; i++) m->fluid_position[i] = sb_add(m->fluid_position[i], by);
     for (size_t b = 0; b < m->wall_count; b++) m->wall_position[b] = sb_add(m->wall_position[b], by);
     for (size_t b = 0; b < m->body_count; b++) m->bodies[b].moment_point = sb_add(m->bodies[b].moment_point, by);
+    for (size_t f = 0; f < m->facets.count; f++) m->facets.facets[f].distance += sb_dot(m->facets.facets[f].normal, by);
+    for (size_t e = 0; e < m->facets.edge_count; e++) {
+        m->facets.edges[e].from = sb_add(m->facets.edges[e].from, by);
+        m->facets.edges[e].to = sb_add(m->facets.edges[e].to, by);
+    }
 }
 
 void tank_scatter(tank *t, uint64_t seed, double speed)
@@ -177,6 +189,7 @@ void tank_scatter(tank *t, uint64_t seed, double speed)
 void tank_split_patch(tank *t, sb_vec3 min, sb_vec3 max)
 {
     sb_model *m = &t->model;
+    need(!m->images);
     sb_vec3 *parted = sb_alloc(m->wall_count, sizeof *parted);
     sb_vec3 *normal = sb_alloc(m->wall_count, sizeof *normal);
     need(parted && normal);
@@ -209,7 +222,7 @@ size_t tank_add_plate(tank *t, const char *name, double x, double z_min, double 
 {
     sb_model *m = &t->model;
     sb_scene *s = &t->scene;
-    need(m->body_count < BODIES_MAX);
+    need(m->body_count < BODIES_MAX && !m->images);
     const double dr = s->resolution * s->numerics.wall_spacing;
     sb_model_body *body = &m->bodies[m->body_count];
     *body = (sb_model_body){.begin = m->wall_count, .wavemaker = -1, .report = true};

@@ -15,6 +15,7 @@ typedef struct tank_form {
     sb_vec3 size;
     double wet_length, depth, jitter;
     bool repeats[2];
+    bool particles; /* walls of boundary particles, whatever the preset */
 } tank_form;
 
 typedef struct tank {
@@ -28,6 +29,9 @@ typedef struct tank {
    program for such a domain with the default preset: a sea if the water extends to all sides, else a box of water.
    Their one body is "domain". dimensions 2: y is ignored. jitter: in spacings. */
 void tank_make(tank *t, int dimensions, double spacing, sb_vec3 size, double wet_length, double depth, double jitter);
+/* The same with walls of boundary particles, whatever the preset: a test can move them, divide them and add to them. */
+void tank_of_particles(tank *t, int dimensions, double spacing, sb_vec3 size, double wet_length, double depth,
+                       double jitter);
 /* Makes a tank of the same form again, with the numerics of a preset. Later changes of scene and model are lost. */
 void tank_use(tank *t, sb_preset preset);
 /* Names of the presets. Loops over both run from SB_PRESET_DEFAULT to SB_PRESET_PAPER. */
@@ -46,11 +50,12 @@ sb_vec3 tank_whole_quanta(const tank *t, sb_vec3 way);
 void tank_shift(tank *t, sb_vec3 by);
 /* Moves the water to random positions within the box, with velocities up to `speed` along each axis and pressure 0. */
 void tank_scatter(tank *t, uint64_t seed, double speed);
-/* Splits the body "tank": its boundary particles in the box (min, max) become body 0, "patch"; the rest is body 1. */
+/* For a tank of particles. Splits the body "tank": its boundary particles in the box (min, max) become body 0, "patch";
+ * the rest is body 1. */
 void tank_split_patch(tank *t, sb_vec3 min, sb_vec3 max);
 
-/* Adds a body of boundary particles one spacing apart: a vertical plane across the tank at x from z_min to z_max. It
-   moves along `direction` by `law`, or is static if that is NULL. Returns the body's index. */
+/* For a tank of particles. Adds a body of boundary particles one spacing apart: a vertical plane across the tank at x
+   from z_min to z_max. It moves along `direction` by `law`, or is static if that is NULL. Returns the body's index. */
 size_t tank_add_plate(tank *t, const char *name, double x, double z_min, double z_max, sb_vec3 direction,
                       const sb_wavemaker_parameters *law);
 

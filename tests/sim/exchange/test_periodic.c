@@ -37,7 +37,7 @@ static void begin(setup *s, sb_preset preset, int dimensions, bool x, bool y, sb
     const sb_wavemaker_parameters law = {
         .kind = sb_wavemaker_find("stroke"), .stroke = 0.5, .speed = 0.8, .gravity = 9.81};
     *s = (setup){0};
-    tank_make(&s->tank, dimensions, 0.1, size, size.x, 0.8 * size.z, 0);
+    tank_of_particles(&s->tank, dimensions, 0.1, size, size.x, 0.8 * size.z, 0);
     tank_use(&s->tank, preset);
     if (x) tank_repeat(&s->tank, 0);
     if (y) tank_repeat(&s->tank, 1);

@@ -42,7 +42,7 @@ static void momentum_is_kept_across_sides(void **state)
         for (int bodies = 0; bodies <= 1; bodies++) {
             bool flat = dimensions == 2;
             tank t;
-            tank_make(&t, dimensions, 0.1, sb_vec(1.2, flat ? 0 : 0.4, bodies ? 2 : 4), 1.2, 1, 0.1);
+            tank_of_particles(&t, dimensions, 0.1, sb_vec(1.2, flat ? 0 : 0.4, bodies ? 2 : 4), 1.2, 1, 0.1);
             tank_use(&t, preset_of(state));
             tank_repeat(&t, 0);
             if (!flat) tank_repeat(&t, 1);
@@ -80,7 +80,7 @@ static void a_drop_meets_a_wall_beyond_the_side(void **state)
     for (int way = -1; way <= 1; way += 2)
         for (int dimensions = 2; dimensions <= 3; dimensions++) {
             tank t;
-            tank_make(&t, dimensions, 0.1, sb_vec(2, 0.8, 2), 0.1, 0.1, 0);
+            tank_of_particles(&t, dimensions, 0.1, sb_vec(2, 0.8, 2), 0.1, 0.1, 0);
             tank_use(&t, preset_of(state));
             tank_repeat(&t, 0);
             t.scene.fluid.gravity = 0;
@@ -112,7 +112,7 @@ static void a_drop_meets_a_wall_beyond_the_side(void **state)
 
 static void make_slab(tank *t, sb_preset preset, sb_vec3 size)
 {
-    tank_make(t, 3, 0.1, size, size.x, 0.6, 0.1);
+    tank_of_particles(t, 3, 0.1, size, size.x, 0.6, 0.1);
     tank_use(t, preset);
     tank_repeat(t, 0);
     tank_repeat(t, 1);

@@ -9,7 +9,7 @@ void problem_begin(problem *p, int dimensions, sb_preset preset)
     /* More than one block of particles, so that sums over blocks are tested. */
     bool flat = dimensions == 2;
     sb_vec3 size = flat ? sb_vec(3, 0, 2) : sb_vec(2, 0.8, 1.5);
-    tank_make(&p->tank, dimensions, flat ? 0.05 : 0.1, size, flat ? 2 : 1.4, flat ? 1.4 : 1.2, 0.1);
+    tank_of_particles(&p->tank, dimensions, flat ? 0.05 : 0.1, size, flat ? 2 : 1.4, flat ? 1.4 : 1.2, 0.1);
     tank_use(&p->tank, preset);
     p->tank.scene.numerics.solver = SB_SOLVER_CG;
     p->tank.scene.numerics.wall_friction = 0.05;

@@ -28,7 +28,7 @@ static void begin(setup *s, int dimensions, sb_preset preset, const char *kernel
 {
     double dr = 0.1;
     sb_vec3 size = dimensions == 2 ? sb_vec(3.03, 0, 2.04) : sb_vec(1.53, 1.21, 1.04);
-    tank_make(&s->tank, dimensions, dr, size, size.x - 0.2, 0.8 * size.z, 0);
+    tank_of_particles(&s->tank, dimensions, dr, size, size.x - 0.2, 0.8 * size.z, 0);
     tank_use(&s->tank, preset);
     if (kernel) {
         s->tank.scene.numerics.kernel = sb_kernel_find(kernel);
@@ -289,7 +289,7 @@ static size_t check_against_model(const setup *s)
 static void walls_beyond_the_domain_hide_nothing(void **state)
 {
     setup s;
-    tank_make(&s.tank, 3, 0.1, sb_vec(2.4, 0.8, 0.8), 2.4, 0.6, 0);
+    tank_of_particles(&s.tank, 3, 0.1, sb_vec(2.4, 0.8, 0.8), 2.4, 0.6, 0);
     tank_use(&s.tank, preset_of(state));
     tank_scatter(&s.tank, 11, 1);
     size_t hill = tank_add_plate(&s.tank, "hill", -3.05, -6, 6, sb_vec(0, 0, 0), NULL);

@@ -134,7 +134,7 @@ static void check_run(int dimensions, sb_vec3 away)
     const sb_wavemaker_parameters law = {
         .kind = sb_wavemaker_find("stroke"), .stroke = 0.3, .speed = 1, .gravity = 9.81};
     tank t;
-    tank_make(&t, dimensions, 0.1, sb_vec(2, dimensions == 2 ? 0 : 0.7, 1.5), 1, 1, 0.1);
+    tank_of_particles(&t, dimensions, 0.1, sb_vec(2, dimensions == 2 ? 0 : 0.7, 1.5), 1, 1, 0.1);
     size_t paddle = tank_add_plate(&t, "paddle", -0.05, 0, 1.2, sb_vec(1, 0, 0), &law);
     tank_shift(&t, away);
     sb_sim *sim = tank_sim(&t);
@@ -176,7 +176,7 @@ static void a_drop_swept_away_is_found(void **state)
     (void)state;
     const sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("gate"), .stroke = 3, .speed = 6, .gravity = 9.81};
     tank t;
-    tank_make(&t, 3, 0.1, sb_vec(4, 0.8, 0.8), 0.1, 0.1, 0);
+    tank_of_particles(&t, 3, 0.1, sb_vec(4, 0.8, 0.8), 0.1, 0.1, 0);
     t.scene.fluid.gravity = 0;
     t.model.fluid_count = 1;
     t.model.fluid_position[0] = sb_vec(0.6, 0.4, 0.4);

@@ -71,7 +71,7 @@ static void a_paddle_in_motion_and_at_rest(void **state)
                                              .gravity = 9.81,
                                              .after = SB_AFTER_STAY};
         tank t;
-        tank_make(&t, 3, 1.0 / 12, sb_vec(2, 1, 1), 2, 0.75, 0.1);
+        tank_of_particles(&t, 3, 1.0 / 12, sb_vec(2, 1, 1), 2, 0.75, 0.1);
         tank_use(&t, preset_of(state));
         tank_add_plate(&t, "paddle", -1.0 / 24, 0, 0.8, sb_vec(1, 0, 0), &law);
         tank_add_terms(&t);
@@ -114,7 +114,7 @@ static void flume_make(tank *t, int dimensions, double dr, sb_vec3 size)
     static const sb_wavemaker_parameters law = {.stroke = 0.4, .speed = 0.5, .gravity = 9.81, .after = SB_AFTER_STAY};
     sb_wavemaker_parameters stroke = law;
     stroke.kind = sb_wavemaker_find("stroke");
-    tank_make(t, dimensions, dr, size, size.x, 1, 0.02);
+    tank_of_particles(t, dimensions, dr, size, size.x, 1, 0.02);
     tank_add_plate(t, "paddle", -dr / 2, 0, size.z, sb_vec(1, 0, 0), &stroke);
     t->scene.sea = (sb_sea){.present = true, .level = 1};
     t->scene.numerics.settle_steps = 200;
@@ -240,7 +240,7 @@ static void impossible_states_are_refused(void **state)
     tank t;
     sb_archive_out good = {0}, bad = {0};
     sb_error error = {0};
-    tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
+    tank_of_particles(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
     tank_add_plate(&t, "paddle", -0.05, 0, 0.8, sb_vec(1, 0, 0), &law);
     sb_sim *sim = tank_sim(&t);
     assert_true(sim && tank_steps(sim, 3) == 0);

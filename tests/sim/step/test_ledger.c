@@ -67,7 +67,7 @@ static sb_ledger follow(const tank *t, double until, const char *name)
 static void a_bore_on_a_column_is_accounted_for(void **state)
 {
     tank t;
-    tank_make(&t, 3, 0.1, sb_vec(2, 0.7, 1.5), 0.8, 1, 0);
+    tank_of_particles(&t, 3, 0.1, sb_vec(2, 0.7, 1.5), 0.8, 1, 0);
     tank_use(&t, preset_of(state));
     add_terms(&t);
     tank_add_plate(&t, "column", 1.45, 0, 0.8, sb_vec(0, 0, 0), NULL);
@@ -91,7 +91,7 @@ static void a_paddle_flume_is_accounted_for(void **state)
     const sb_wavemaker_parameters law = stroke_law();
     for (int dimensions = 2; dimensions <= 3; dimensions++) {
         tank t;
-        tank_make(&t, dimensions, 0.1, sb_vec(4, 0.5, 1.5), 4, 1, 0.1);
+        tank_of_particles(&t, dimensions, 0.1, sb_vec(4, 0.5, 1.5), 4, 1, 0.1);
         add_terms(&t);
         tank_add_plate(&t, "paddle", -0.05, 0, 1.4, sb_vec(1, 0, 0), &law);
         sb_ledger l = follow(&t, 0.8, dimensions == 2 ? "flume 2D" : "flume 3D");
@@ -193,7 +193,7 @@ static void entries_are_the_works_of_their_terms(void **state)
                                                          sb_stage_accelerate, sb_stage_impulse, sb_stage_move};
     tank t;
     twin before;
-    tank_make(&t, 3, 0.1, sb_vec(1.5, 0.6, 1.2), 1, 0.9, 0.1);
+    tank_of_particles(&t, 3, 0.1, sb_vec(1.5, 0.6, 1.2), 1, 0.9, 0.1);
     tank_use(&t, preset_of(state));
     add_terms(&t);
     tank_add_plate(&t, "paddle", -0.05, 0, 1.1, sb_vec(1, 0, 0), &law);
@@ -306,7 +306,7 @@ static void a_swept_drop_has_the_paddles_work(void **state)
                                                          sb_stage_pressure,   sb_stage_accelerate};
     const sb_wavemaker_parameters law = stroke_law();
     tank t;
-    tank_make(&t, 3, 0.1, sb_vec(2, 1, 1), 1, 0.1, 0);
+    tank_of_particles(&t, 3, 0.1, sb_vec(2, 1, 1), 1, 0.1, 0);
     tank_use(&t, preset_of(state));
     tank_add_plate(&t, "paddle", 0.3, 0, 1, sb_vec(1, 0, 0), &law);
     t.model.fluid_count = 1;

@@ -69,7 +69,7 @@ static void coincident_particles_do_no_harm(void **state)
     (void)state;
     for (sb_solver solver = SB_SOLVER_JACOBI; solver <= SB_SOLVER_CG; solver++) {
         tank t;
-        tank_make(&t, 3, 0.1, sb_vec(0.6, 0.6, 1), 0.6, 0.6, 0.05);
+        tank_of_particles(&t, 3, 0.1, sb_vec(0.6, 0.6, 1), 0.6, 0.6, 0.05);
         t.scene.numerics.solver = solver;
         t.scene.numerics.wall_friction = 0.1;
         t.scene.fluid.viscosity = 1e-4;
@@ -92,7 +92,7 @@ static void what_leaves_is_counted(void **state)
 {
     (void)state;
     tank t;
-    tank_make(&t, 2, 0.1, sb_vec(2, 0, 1), 1, 0.5, 0);
+    tank_of_particles(&t, 2, 0.1, sb_vec(2, 0, 1), 1, 0.5, 0);
     t.scene.domain.side[SB_X_MAX] = SB_SIDE_OPEN;
     tank_split_patch(&t, sb_vec(-1, -1, 1), sb_vec(3, 1, 2));
     t.model.bodies[0].count = 0; /* no lid */
@@ -328,7 +328,7 @@ static void bad_parts_are_refused(void **state)
     (void)state;
     sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("stroke"), .stroke = -1, .speed = 1};
     tank t;
-    tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0);
+    tank_of_particles(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0);
     tank_add_plate(&t, "paddle", -0.05, 0, 1, sb_vec(1, 0, 0), &law);
     sb_error error = {0};
     sb_sim *sim = NULL;
@@ -372,7 +372,7 @@ static void every_failed_allocation_is_survived(void **state)
     (void)state;
     const sb_wavemaker_parameters law = {.kind = sb_wavemaker_find("gate"), .stroke = 2, .speed = 3, .gravity = 9.81};
     tank t;
-    tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
+    tank_of_particles(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
     tank_add_plate(&t, "gate", 0.55, 0, 1, sb_vec(0, 0, 1), &law);
     t.scene.numerics.solver = SB_SOLVER_CG;
     int before = omp_get_max_threads();
@@ -394,7 +394,7 @@ static void a_gate_leaves_the_domain(void **state)
     const sb_wavemaker_parameters law = {
         .kind = sb_wavemaker_find("gate"), .start = 0.1, .stroke = 1000, .speed = 8, .gravity = 9.81};
     tank t;
-    tank_make(&t, 2, 0.05, sb_vec(2, 0, 1), 0.5, 0.6, 0.01);
+    tank_of_particles(&t, 2, 0.05, sb_vec(2, 0, 1), 0.5, 0.6, 0.01);
     size_t gate = tank_add_plate(&t, "gate", 0.525, 0, 1, sb_vec(0, 0, 1), &law);
     sb_sim *sim = make(&t);
     double front = 0;

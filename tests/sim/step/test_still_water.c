@@ -91,7 +91,7 @@ static void check(int dimensions, double spacing, sb_vec3 size, double depth, sb
     double wave_speed = sqrt(9.81 * depth), area = flat ? size.x : size.x * size.y;
     double mass = 1000 * depth * area, speed[QUARTERS];
     tank t;
-    tank_make(&t, dimensions, spacing, size, size.x, depth, 0.01);
+    tank_of_particles(&t, dimensions, spacing, size, size.x, depth, 0.01);
     tank_split_patch(&t, sb_vec(size.x / 4, flat ? -1 : size.y / 4, -1),
                      sb_vec(3 * size.x / 4, flat ? 1 : 3 * size.y / 4, 0));
     t.scene.numerics.solver = solver;

@@ -57,7 +57,7 @@ static void a_paddle(void **state)
                                          .after = SB_AFTER_RETURN,
                                          .return_time = 0.3};
     tank t;
-    tank_make(&t, 3, 1.0 / 12, sb_vec(2, 1, 1), 2, 0.75, 0.1);
+    tank_of_particles(&t, 3, 1.0 / 12, sb_vec(2, 1, 1), 2, 0.75, 0.1);
     tank_use(&t, preset_of(state));
     t.scene.numerics.solver = SB_SOLVER_CG;
     tank_add_plate(&t, "paddle", -1.0 / 24, 0, 0.8, sb_vec(1, 0, 0), &law);

@@ -23,7 +23,7 @@ static void begin(setup *s, int dimensions, double alpha, double sigma, double n
     const sb_wavemaker_parameters law = {
         .kind = sb_wavemaker_find("stroke"), .stroke = 0.5, .speed = 0.9, .gravity = 9.81};
     bool flat = dimensions == 2;
-    tank_make(&s->tank, dimensions, 0.1, sb_vec(2, flat ? 0 : 0.7, 1.5), 1.2, 0.9, 0.2);
+    tank_of_particles(&s->tank, dimensions, 0.1, sb_vec(2, flat ? 0 : 0.7, 1.5), 1.2, 0.9, 0.2);
     tank_add_plate(&s->tank, "paddle", -0.05, 0, 1.2, sb_vec(1, 0, 0), &law);
     s->tank.scene.numerics.artificial_viscosity = alpha;
     s->tank.scene.numerics.wall_friction = sigma;

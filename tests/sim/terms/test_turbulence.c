@@ -42,7 +42,7 @@ static void a_random_cloud_is_the_reference(void **state)
         tank t;
         twin copy;
         sb_vec3 size = dimensions == 2 ? sb_vec(2, 0, 2) : sb_vec(1.2, 0.8, 0.8);
-        tank_make(&t, dimensions, 0.1, size, size.x, 0.5 * size.z, 0);
+        tank_of_particles(&t, dimensions, 0.1, size, size.x, 0.5 * size.z, 0);
         tank_scatter(&t, 5, 1);
         tank_add_plate(&t, "paddle", 0.5, 0, 0.6, sb_vec(1, 0, 0), &law);
         turn_on(&t);

@@ -30,7 +30,7 @@ static void a_random_cloud_is_the_reference(void **state)
         twin copy;
         twin_gap gap = {0};
         const sb_vec3 size = dimensions == 2 ? sb_vec(3, 0, 2) : sb_vec(1.2, 1.2, 1);
-        tank_make(&t, dimensions, 0.1, size, size.x, 0.9 * size.z, 0);
+        tank_of_particles(&t, dimensions, 0.1, size, size.x, 0.9 * size.z, 0);
         if (form > 1) tank_repeat(&t, 0);
         tank_scatter(&t, 5, 1);
         sb_sim *sim = tank_sim(&t);

@@ -12,7 +12,7 @@ static const double DR = 0.1, PLATE = 0.4, SIZE = 0.8;
    closer than contact resolution permits. */
 static sb_sim *crowded(tank *t, int dimensions, sb_preset preset)
 {
-    tank_make(t, dimensions, DR, sb_vec(SIZE, SIZE, 1.2), SIZE, SIZE, 0);
+    tank_of_particles(t, dimensions, DR, sb_vec(SIZE, SIZE, 1.2), SIZE, SIZE, 0);
     tank_use(t, preset);
     t->scene.numerics.jitter = 0;
     const double shift = (t->scene.numerics.wall_offset - 0.5) * DR;

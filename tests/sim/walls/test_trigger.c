@@ -17,7 +17,7 @@ static void make(tank *t, double start)
                                          .speed = 0.8,
                                          .gravity = 9.81,
                                          .after = SB_AFTER_STAY};
-    tank_make(t, 2, DR, sb_vec(2, 0, 1), 2, 0.75, 0.1);
+    tank_of_particles(t, 2, DR, sb_vec(2, 0, 1), 2, 0.75, 0.1);
     tank_add_plate(t, "paddle", -DR / 2, 0, 0.8, sb_vec(1, 0, 0), &law);
 }
 

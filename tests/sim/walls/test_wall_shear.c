@@ -34,7 +34,7 @@ static void check(int dimensions, double nu)
         .kind = sb_wavemaker_find("stroke"), .stroke = 0.5, .speed = 0.9, .gravity = 9.81};
     const bool flat = dimensions == 2;
     tank t;
-    tank_make(&t, dimensions, 0.1, sb_vec(2, flat ? 0 : 0.7, 1.5), 1.2, 0.9, 0.2);
+    tank_of_particles(&t, dimensions, 0.1, sb_vec(2, flat ? 0 : 0.7, 1.5), 1.2, 0.9, 0.2);
     tank_add_plate(&t, "paddle", -0.05, 0, 1.2, sb_vec(1, 0, 0), &motion);
     /* parallel to the wall and a little behind it, like treads of stairs: each has its own distance */
     tank_add_plate(&t, "lining", -0.09, 0, 1.2, sb_vec(1, 0, 0), NULL);
