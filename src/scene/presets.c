@@ -27,7 +27,7 @@ static const struct {
     {"stress_correction",    {"1",          "0"}},
     {"artificial_viscosity", {"0.005",       "0.05"}},
     {"wall_friction",        {"0",          "0.02"}},
-    {"walls",                {"particles",  "particles"}},
+    {"walls",                {"images",     "particles"}},
     {"wall_shear",           {"smooth",     "none"}},
     {"turbulence",           {"none",       "none"}},
     {"smagorinsky",          {"0.1",        "0.1"}},

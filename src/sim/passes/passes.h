@@ -33,6 +33,8 @@ typedef struct sb_passes {
     sb_status (*neighbours)(sb_sim *sim, sb_error *error);
     /* strain_xx and strain: E_i = c (1 - M_i/t_i) of sim/terms/stress_correction.h. */
     void (*strain)(sb_sim *sim);
+    /* stress_xx and stress: the mean of E over neighbours and images. Records carry strain_xx. */
+    void (*mean_strain)(sb_sim *sim);
     /* corrected: the velocity after the correction, and with images stress_force. Records carry stress_xx. Returns 0,
        or -1 without memory. */
     int (*correct)(sb_sim *sim);

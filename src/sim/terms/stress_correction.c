@@ -26,22 +26,22 @@ static double sum_changes(sb_sim *sim, const sb_group *group, double terms[SB_SU
     return -fast;
 }
 
-/* S_i = q_i <E>_i. Ghosts and records have E. Returns 0, or -1 without memory. */
+/* S_i = q_i <E>_i. Returns 0, or -1 without memory. */
 static int find_stress(sb_sim *sim)
 {
     sb_work *w = &sim->work;
-    for (int mean = 1; mean < MEANS; mean++) {
-        if (sb_cell_mean(sim, w->strain_xx, w->strain) != 0) return -1;
-        sb_refresh(sim, w->strain);
-        sb_pressure_load(sim, w->strain_xx);
+    sim->passes->mean_strain(sim);
+    for (int mean = 0; mean < MEANS; mean++) {
+        sb_refresh(sim, w->stress);
+        sb_pressure_load(sim, w->stress_xx);
+        if (sb_cell_mean(sim, w->stress_xx, w->stress) != 0) return -1;
     }
-    if (sb_cell_mean(sim, w->strain_xx, w->strain) != 0) return -1;
     const size_t n = sim->state.n;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
         const float q = sim->state.velocity[i][3] / (w->density[i] * w->density[i]);
-        w->stress_xx[i] = q * w->strain_xx[i];
-        w->stress[i] = sb_splat(q) * w->strain[i];
+        w->stress_xx[i] *= q;
+        w->stress[i] *= sb_splat(q);
     }
     return 0;
 }

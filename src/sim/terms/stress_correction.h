@@ -9,9 +9,10 @@
 
        dv_i/dt = -sum_j m (S_i + S_j) grad W_ij,   S_i = q_i <E>_i,   E_i = c (1 - M_i / t_i)
 
-   The remaining part is of second order: M (1 + E) = t (1 - e^2) with e = M/t - 1. <> is the mean of sb_cell_mean,
-   taken twice: the strain of waves extends over many spacings, and the force of what differs between adjacent particles
-   would stir water at rest (docs/decisions/0044). E has no trace, so that five numbers represent it. */
+   The remaining part is of second order: M (1 + E) = t (1 - e^2) with e = M/t - 1. <> is a mean over neighbours and
+   their images, and then that of sb_cell_mean, taken twice: the strain of waves extends over many spacings, and the
+   force of what differs between adjacent particles would stir water at rest (docs/decisions/0044). E has no trace, so
+   that five numbers represent it. */
 #ifndef SB_SIM_STRESS_CORRECTION_H
 #define SB_SIM_STRESS_CORRECTION_H
 

@@ -65,7 +65,7 @@ static sb_sim *make_tank(tank *t, int dimensions, bool repeats)
 {
     const sb_wavemaker_parameters law = {
         .kind = sb_wavemaker_find("stroke"), .stroke = 0.5, .speed = 0.8, .gravity = 9.81};
-    tank_make(t, dimensions, 0.1, sb_vec(1.3, 0.7, 1.2), 1.3, 0.9, 0.2);
+    tank_of_particles(t, dimensions, 0.1, sb_vec(1.3, 0.7, 1.2), 1.3, 0.9, 0.2);
     if (repeats) tank_repeat(t, 0);
     tank_scatter(t, 3, 1);
     if (!repeats) tank_add_plate(t, "paddle", 0.3, 0, 0.7, sb_vec(1, 0, 0), &law);
@@ -108,7 +108,7 @@ typedef struct row {
     result result[4];
 } row;
 
-enum { NEIGHBOURS, STRAIN, CORRECT, STRAIN_RATE, FORCES, ACCELERATE, DIVERGE, VIRIAL, BODIES, PASSES };
+enum { NEIGHBOURS, STRAIN, MEAN_STRAIN, CORRECT, STRAIN_RATE, FORCES, ACCELERATE, DIVERGE, VIRIAL, BODIES, PASSES };
 
 /* Sums of 80 floats. The roots of slopes are rounded to 15 bits, and one that is half way may round to the other side.
  */
@@ -117,6 +117,7 @@ static const double SUM = 3e-6, ROOTS = 1e-4;
 static const row rows[PASSES] = {
     [NEIGHBOURS] = {"neighbours", {{"density", SUM}, {"wall_density", SUM}, {"wall", SUM}, {"diagonal", ROOTS}}},
     [STRAIN] = {"strain", {{"strain_xx", SUM}, {"strain", SUM}}},
+    [MEAN_STRAIN] = {"mean_strain", {{"stress_xx", SUM}, {"stress", SUM}}},
     [CORRECT] = {"correct", {{"corrected", SUM}}},
     [STRAIN_RATE] = {"strain_rate", {{"eddy", SUM}}},
     [FORCES] = {"forces", {{"predicted", SUM}, {"wall_drag", SUM}}},
@@ -149,6 +150,9 @@ static void run(const sb_passes *form, int pass, sb_sim *sim, double *force)
         break;
     case STRAIN:
         form->strain(sim);
+        break;
+    case MEAN_STRAIN:
+        form->mean_strain(sim);
         break;
     case CORRECT:
         assert_int_equal(form->correct(sim), 0);
@@ -186,11 +190,13 @@ static void set_input(int pass, sb_sim *sim)
     sb_work *w = &sim->work;
     for (size_t i = 0; i < n; i++) {
         const float a = (float)sb_random(11, i), b = (float)sb_random(12, i) - 0.5f, c = (float)sb_random(13, i) - 0.5f;
+        if (pass == MEAN_STRAIN) w->strain_xx[i] = b, w->strain[i] = (sb_f4){c, a, b, c};
         if (pass == CORRECT) w->stress_xx[i] = b, w->stress[i] = (sb_f4){c, a, b, c};
         if (pass == FORCES) w->eddy[i] = 0.01f * a, w->wall_drag[i] = (sb_f4){0}; /* set beside walls only */
         if (pass == ACCELERATE || pass == VIRIAL || pass == BODIES) w->unknown[i] = 1e-3f * a;
         if (pass == BODIES) w->end_velocity[i] = sim->state.velocity[i] + (sb_f4){b, 0, c, 0};
     }
+    if (pass == MEAN_STRAIN) sb_refresh(sim, w->strain), sb_pressure_load(sim, w->strain_xx);
     if (pass == CORRECT) sb_refresh(sim, w->stress), sb_pressure_load(sim, w->stress_xx);
     if (pass == FORCES) sb_refresh_values(sim, w->eddy), sb_pressure_load(sim, w->density);
     if (pass == ACCELERATE) sb_pressure_load(sim, w->unknown);
@@ -291,7 +297,8 @@ static void all_rows_are_there(void **state)
     for (size_t f = 0; f < sizeof forms / sizeof *forms; f++) {
         const sb_passes *p = forms[f];
         if (!p) continue;
-        assert_true(p->name && p->neighbours && p->strain && p->correct && p->strain_rate && p->forces);
+        assert_true(p->name && p->neighbours && p->strain && p->mean_strain && p->correct && p->strain_rate &&
+                    p->forces);
         assert_true(p->accelerate && p->diverge && p->virial && p->bodies);
     }
     assert_ptr_not_equal(sb_passes_choose(), &sb_passes_reference);
@@ -305,7 +312,7 @@ static void a_run_by_the_reference(void **state)
     double energy[2], time[2];
     for (int k = 0; k < 2; k++) {
         tank t;
-        tank_make(&t, 2, 0.1, sb_vec(2, 0, 1.5), 1, 1, 0.05);
+        tank_of_particles(&t, 2, 0.1, sb_vec(2, 0, 1.5), 1, 1, 0.05);
         tank_add_terms(&t);
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);

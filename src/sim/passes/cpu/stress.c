@@ -1,4 +1,4 @@
-/* The two passes of the deviatoric stress correction (sim/terms/stress_correction.h). */
+/* The passes of the deviatoric stress correction (sim/terms/stress_correction.h). */
 #include "sim/exchange/exchange.h"
 #include "sim/passes/cpu/body_forces.h"
 #include "sim/passes/cpu/cpu.h"
@@ -91,6 +91,40 @@ static void find_strain(sb_sim *sim, const sb_group *group, const void *argument
     }
 }
 
+/* <E>_i over the particle, its neighbours and images, weighted by their slopes; that of the particle itself is the
+   slope of a coincident one. */
+SB_MULTIVERSION
+static void average_strain(sb_sim *sim, const sb_group *group, const void *arguments)
+{
+    (void)arguments;
+    const float most = (float)SB_ROOT_MAX * (float)SB_ROOT_MAX;
+    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
+    const bool any = sb_around_tensors(sim, group, sim->work.strain, around);
+    for (size_t i = group->first; i < group->end; i++) {
+        sim->work.stress[i] = (sb_f4){0};
+        sim->work.stress_xx[i] = 0;
+        if (!any) continue;
+        const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i],
+                            *end = four + sim->work.pairs.count[i];
+        const sb_f4 own = {0, 0, 0, sim->work.strain_xx[i]};
+        sb_f8 even = sb_join(own, sim->work.strain[i]) * sb_splat8(most), odd = {0};
+        sb_f4 weights = {most};
+        for (; four < end; four++) {
+            const sb_f4 slope = sb_slopes(four);
+            sb_prefetch(four);
+            even += *sb_both_at(around, four->place[0]) * sb_splat8(slope[0]);
+            odd += *sb_both_at(around, four->place[1]) * sb_splat8(slope[1]);
+            even += *sb_both_at(around, four->place[2]) * sb_splat8(slope[2]);
+            odd += *sb_both_at(around, four->place[3]) * sb_splat8(slope[3]);
+            weights += slope;
+        }
+        const sb_f8 sum = even + odd;
+        const float factor = 1 / (sb_sum3(weights) + weights[3]);
+        sim->work.stress[i] = __builtin_shufflevector(sum, sum, 4, 5, 6, 7) * sb_splat(factor);
+        sim->work.stress_xx[i] = sum[3] * factor;
+    }
+}
+
 /* The velocity after the correction. The pressure in its last lane does not change. */
 SB_INLINE void correct_with(sb_sim *sim, const sb_group *group, const sb_f4 *around, bool any)
 {
@@ -140,6 +174,11 @@ static void correct(sb_sim *sim, const sb_group *group, const void *arguments)
 void sb_cpu_strain(sb_sim *sim)
 {
     sb_each_group(sim, find_strain, NULL);
+}
+
+void sb_cpu_mean_strain(sb_sim *sim)
+{
+    sb_each_group(sim, average_strain, NULL);
 }
 
 /* Adds the reactions of walls to the correction of a group's particles by images. */

@@ -109,6 +109,7 @@ const sb_passes sb_passes_reference = {
     .name = "reference",
     .neighbours = sb_plain_neighbours,
     .strain = sb_plain_strain,
+    .mean_strain = sb_plain_mean_strain,
     .correct = sb_plain_correct,
     .strain_rate = sb_plain_strain_rate,
     .forces = sb_plain_forces,

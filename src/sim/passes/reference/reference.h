@@ -6,6 +6,7 @@
 
 sb_status sb_plain_neighbours(sb_sim *sim, sb_error *error);
 void sb_plain_strain(sb_sim *sim);
+void sb_plain_mean_strain(sb_sim *sim);
 int sb_plain_correct(sb_sim *sim);
 void sb_plain_strain_rate(sb_sim *sim);
 void sb_plain_forces(sb_sim *sim, const sb_viscous *viscous, const sb_wall_drag *law);

@@ -96,6 +96,30 @@ static void add(const sb_sim *sim, const sb_indices *around, const sb_f4 *rest, 
     sum[YZ] += weight * t[1][2];
 }
 
+static void average_group(sb_sim *sim, const sb_group *group, const void *arguments)
+{
+    (void)arguments;
+    sb_indices around;
+    sb_indices_of(sim, group, &around);
+    for (size_t i = group->first; i < group->end; i++) {
+        double sum[PARTS] = {0}, weights = (double)SB_ROOT_MAX * SB_ROOT_MAX * (double)sim->work.pairs.unit;
+        add(sim, &around, sim->work.strain, (uint32_t)i, 0, weights, sum);
+        for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
+            const sb_one_pair p = sb_pair_at(sim, &around, i, k);
+            add(sim, &around, sim->work.strain, p.other, p.path, p.slope, sum);
+            weights += p.slope;
+        }
+        sim->work.stress_xx[i] = (float)(sum[XX] / weights);
+        sim->work.stress[i] = (sb_f4){(float)(sum[YY] / weights), (float)(sum[XY] / weights),
+                                      (float)(sum[XZ] / weights), (float)(sum[YZ] / weights)};
+    }
+}
+
+void sb_plain_mean_strain(sb_sim *sim)
+{
+    sb_each_group(sim, average_group, NULL);
+}
+
 /* -m (S_i + S_j) grad W of one pair. */
 static sb_vec3 correction(const sb_sim *sim, const sb_indices *around, size_t i, const sb_one_pair *p)
 {
