@@ -1,0 +1,20 @@
+/* What the maps of a run say: the depth near a body, the flooded ground. Private to src/compare. */
+#ifndef SB_COMPARE_NEAR_BODY_H
+#define SB_COMPARE_NEAR_BODY_H
+
+#include "report/grid.h"
+#include "report/run.h"
+
+/* Reads maps/<name>.asc of a run; false without an effect if it cannot be read. Free with sb_grid_free. */
+bool sb_map_of(const sb_report_run *run, const char *name, sb_grid *grid);
+
+/* The greatest value, m, of the map max_depth in cells whose middles lie outside of the body's plan rectangle, at a
+   distance of at most two particle spacings, or one cell if that is more. 0: they stayed dry; NaN: the map does not
+   reach there, or the summary has no rectangle (min_m, max_m) of the body. depth: may be empty. */
+double sb_depth_near(const sb_report_run *run, const char *body, const sb_grid *depth);
+
+/* *area, m²: cells that were first wet after the start. *most, m: the greatest depth in them; NaN without a map of
+   depths of the same cells. */
+void sb_flooded(const sb_grid *arrival, const sb_grid *depth, double *area, double *most);
+
+#endif
