@@ -31,21 +31,37 @@ static bool rectangle_of(const sb_report_run *run, const char *name, double low[
     return false;
 }
 
+/* The side of the rectangle [low, high] before which the point lies, at most `reach` away: 0 to 3; -1: none. */
+static int side_before(const double low[2], const double high[2], const double at[2], double reach)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        const int other = 1 - axis;
+        if (at[other] < low[other] || at[other] > high[other]) continue;
+        if (at[axis] < low[axis] && low[axis] - at[axis] <= reach) return 2 * axis;
+        if (at[axis] > high[axis] && at[axis] - high[axis] <= reach) return 2 * axis + 1;
+    }
+    return -1;
+}
+
 double sb_depth_near(const sb_report_run *run, const char *body, const sb_grid *depth)
 {
-    double low[2], high[2], most = NAN;
+    double low[2], high[2], sum[4] = {0}, most = NAN;
+    size_t cells[4] = {0};
     const double spacing = sb_report_number(run, "resolution_m");
     if (!depth->values || !rectangle_of(run, body, low, high)) return NAN;
     const double reach = fmax(2 * (isnan(spacing) ? 0 : spacing), depth->cell);
     for (size_t row = 0; row < depth->rows; row++)
         for (size_t column = 0; column < depth->columns; column++) {
-            const double x = depth->x_min + ((double)column + 0.5) * depth->cell;
-            const double y = depth->y_min + ((double)(depth->rows - row) - 0.5) * depth->cell;
-            const double out_x = fmax(low[0] - x, x - high[0]), out_y = fmax(low[1] - y, y - high[1]);
-            if (fmax(out_x, out_y) <= 0 || hypot(fmax(out_x, 0), fmax(out_y, 0)) > reach) continue;
+            const double at[2] = {depth->x_min + ((double)column + 0.5) * depth->cell,
+                                  depth->y_min + ((double)(depth->rows - row) - 0.5) * depth->cell};
+            const int side = side_before(low, high, at, reach);
+            if (side < 0) continue;
             const double value = (double)depth->values[row * depth->columns + column];
-            most = fmax(most, isnan(value) ? 0 : value);
+            sum[side] += isnan(value) ? 0 : value;
+            cells[side]++;
         }
+    for (int side = 0; side < 4; side++)
+        if (cells[side] > 0) most = fmax(most, sum[side] / (double)cells[side]);
     return most;
 }
 

@@ -8,8 +8,9 @@
 /* Reads maps/<name>.asc of a run; false without an effect if it cannot be read. Free with sb_grid_free. */
 bool sb_map_of(const sb_report_run *run, const char *name, sb_grid *grid);
 
-/* The greatest value, m, of the map max_depth in cells whose middles lie outside of the body's plan rectangle, at a
-   distance of at most two particle spacings, or one cell if that is more. 0: they stayed dry; NaN: the map does not
+/* The greatest depth before a side of the body's plan rectangle, m: of the four sides the greatest mean of the map
+   max_depth over cells whose middles lie before the side, at most two particle spacings away, or one cell if that is
+   more. The mean, because the depth in one cell is that of a few particles. Dry cells count as 0. NaN: the map does not
    reach there, or the summary has no rectangle (min_m, max_m) of the body. depth: may be empty. */
 double sb_depth_near(const sb_report_run *run, const char *body, const sb_grid *depth);
 

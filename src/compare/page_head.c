@@ -190,7 +190,9 @@ void sb_compare_record(FILE *out, const sb_compare_page *page)
         "<section id=\"record\"><h2>Values and runs</h2>\n<p class=\"note\">Peaks are of means over "
         "<code>measure.interval</code>; the horizontal impulse is the sum of force times time over the whole run; the "
         "overturning moment is the horizontal moment about the body’s reference point. The greatest depth in front is "
-        "that of the map of depths in cells around the body, at most two particle spacings from its plan rectangle. A "
+        "the mean of the map of depths before a side of the body, at most two particle spacings away, at the side "
+        "where it "
+        "is greatest. A "
         "body is first wet at the end of the first interval with a force. Differences are from the first scene; "
         "percentages are of its value.</p>\n<dl>",
         out);

@@ -50,8 +50,8 @@ static inline void make_scene(const made_run *r, double resolution, double durat
     assert_int_equal(fclose(f), 0);
 }
 
-/* Two bodies with forces that grow with time: (3, 4, 0) k t factor N, their overturning moments (5, 12) k t factor N m, from
-   t = 1 s on; and the third, "dry", without any. */
+/* Two bodies with forces that grow with time: (3, 4, 0) k t factor N, their overturning moments (5, 12) k t factor N m,
+   from t = 1 s on; and the third, "dry", without any. */
 static inline void make_tables(const made_run *r)
 {
     const int rows = r->rows ? r->rows : 100;

@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-#define COMPARE(error, ...)                                                                                           \
-    compare_runs((const char *const[]){__VA_ARGS__}, sizeof((const char *const[]){__VA_ARGS__}) / sizeof(char *),     \
+#define COMPARE(error, ...)                                                                                            \
+    compare_runs((const char *const[]){__VA_ARGS__}, sizeof((const char *const[]){__VA_ARGS__}) / sizeof(char *),      \
                  NULL, error)
 
 static void expect(int status, const char *const *names, size_t count, const char *expected)
@@ -16,9 +16,9 @@ static void expect(int status, const char *const *names, size_t count, const cha
     assert_has(error.text, expected);
     assert_null(strchr(error.text, '\n'));
 }
-#define REFUSED(expected, ...)                                                                                        \
-    expect(SB_BAD_INPUT, (const char *const[]){__VA_ARGS__}, sizeof((const char *const[]){__VA_ARGS__}) / sizeof(char *), \
-           expected)
+#define REFUSED(expected, ...)                                                                                         \
+    expect(SB_BAD_INPUT, (const char *const[]){__VA_ARGS__},                                                           \
+           sizeof((const char *const[]){__VA_ARGS__}) / sizeof(char *), expected)
 
 /* The columns mean, least, greatest, difference and difference_percent of a row of compare.csv; NaN: empty. */
 static void read_row(const char *csv, const char *start, double out[5])
@@ -44,7 +44,8 @@ static void assert_row(const char *csv, const char *start, double mean, double l
     read_row(csv, start, row);
     const double expected[4] = {mean, least, most, difference};
     for (int k = 0; k < 4; k++) {
-        if (isnan(expected[k]) != isnan(row[k])) fail_msg("%s: column %d is %g, expected %g", start, k, row[k], expected[k]);
+        if (isnan(expected[k]) != isnan(row[k]))
+            fail_msg("%s: column %d is %g, expected %g", start, k, row[k], expected[k]);
         if (!isnan(row[k])) assert_near(row[k], expected[k], 1e-6 * (1 + fabs(expected[k])));
     }
 }
@@ -73,10 +74,10 @@ static void two_scenes(void **state)
     assert_row(csv, "body,house,first_wet,s,low", 1, 1, 1, NAN);
     assert_row(csv, "body,dry,force,N,low", 0, 0, 0, NAN);
     assert_row(csv, "body,dry,first_wet,s,low", NAN, NAN, NAN, NAN);
-    /* The house is in the cell (1, 1). Within one cell of it are the middles of its eight neighbours but the corners,
-       which are at a distance of 0.71 m: all eight. The greatest is (2, 2); of the barn nothing is known. */
-    assert_row(csv, "body,house,depth,m,low", 44, 44, 44, NAN);
-    assert_row(csv, "body,house,depth,m,high", 22, 22, 22, -22);
+    /* The house is in the cell (1, 1). One cell lies before each of its sides; the greatest is that in the north,
+       (1, 2). Of the barn no rectangle is known. */
+    assert_row(csv, "body,house,depth,m,low", 42, 42, 42, NAN);
+    assert_row(csv, "body,house,depth,m,high", 21, 21, 21, -21);
     assert_row(csv, "body,barn,depth,m,high", NAN, NAN, NAN, NAN);
     assert_row(csv, "gauge,near,surface,m,high", 0.6, 0.6, 0.6, -0.6);
     assert_row(csv, "plane,crest,volume,m³,high", 7, 7, 7, -7);
@@ -228,19 +229,19 @@ static void the_page(void **state)
     make_run_of((made_run){.name = "high", .seed = 1, .wall = 1.5, .factor = 1});
     assert_int_equal(COMPARE(NULL, "<img src=x>", "high"), SB_OK);
     char *text = text_of("out/compare.html"), *csv = text_of("out/compare.csv");
-    static const char *const parts[] = {SB_COMPARE_START,
-                                        "<title>&lt;img src=x&gt;, high</title>",
-                                        "<th scope=\"row\">bodies.wall.max</th><td>[1.2, 4, 0.5] m</td><td>[1.2, 4, 1.5] m",
-                                        "On 1 of 3 loaded bodies the force is marked as not reliable",
-                                        "Each scene has one run, so there are no error bars",
-                                        "not in this run",
-                                        "a&quot;&lt;b&gt;,c",
-                                        "\"items\":[\"house\",\"house\",",
-                                        "No force acted in any run on: dry.",
-                                        "default-src 'none'",
-                                        "Greatest depth on it"};
-    for (size_t p = 0; p < sizeof parts / sizeof *parts; p++)
-        assert_has(text, parts[p]);
+    static const char *const parts[] = {
+        SB_COMPARE_START,
+        "<title>&lt;img src=x&gt;, high</title>",
+        "<th scope=\"row\">bodies.wall.max</th><td>[1.2, 4, 0.5] m</td><td>[1.2, 4, 1.5] m",
+        "On 1 of 3 loaded bodies the force is marked as not reliable",
+        "Each scene has one run, so there are no error bars",
+        "not in this run",
+        "a&quot;&lt;b&gt;,c",
+        "\"items\":[\"house\",\"house\",",
+        "No force acted in any run on: dry.",
+        "default-src 'none'",
+        "Greatest depth on it"};
+    for (size_t p = 0; p < sizeof parts / sizeof *parts; p++) assert_has(text, parts[p]);
     assert_null(strstr(text, "<img src=x"));
     assert_null(strstr(text, " src=\"http"));
     assert_has(csv, "\"a\"\"<b>,c\"");
@@ -267,10 +268,12 @@ static void long_runs(void **state)
 static void damaged_files(void **state)
 {
     (void)state;
-    static const char *const files[] = {"summary.json", "run.jsonl",          "scene.yaml",   "forces.csv",
-                                        "gauges.csv",   "maps/max_depth.asc", "overtopping.csv", "maps/arrival_time.asc"};
-    static const char *const noises[] = {"", "\x01{[ noise,\n,,\n\"\xfe", "- - -\n:\n  - a: \"\n- name: x\n   y\n",
-                                         "{\"status\":\"done\",\"dimensions\":3,\"bodies\":[{\"name\":\"house\",\"min_m\":[1]},7]}"};
+    static const char *const files[] = {
+        "summary.json", "run.jsonl",          "scene.yaml",      "forces.csv",
+        "gauges.csv",   "maps/max_depth.asc", "overtopping.csv", "maps/arrival_time.asc"};
+    static const char *const noises[] = {
+        "", "\x01{[ noise,\n,,\n\"\xfe", "- - -\n:\n  - a: \"\n- name: x\n   y\n",
+        "{\"status\":\"done\",\"dimensions\":3,\"bodies\":[{\"name\":\"house\",\"min_m\":[1]},7]}"};
     for (size_t f = 0; f < sizeof files / sizeof *files; f++)
         for (size_t n = 0; n < sizeof noises / sizeof *noises; n++) {
             sb_error error = {0};
