@@ -84,9 +84,10 @@ static void put_reliable(FILE *out, const sb_compare_page *page)
         sb_html_put(
             out,
             "On %z of %z loaded bodies the force is marked as not reliable in at least one run, because the flow "
-            "is too shallow for the particles or a gap is too narrow. Of these use only the order of loads and "
-            "large differences of impulses; repeat both runs at a finer resolution before values are used. The "
-            "report of each run says why, and what resolution it needs.",
+            "is too shallow for the particles or a gap is too narrow. Differences of these are no better: flow over a "
+            "crest that is thinner than about four spacings is not resolved and can be missing, so that a coarse "
+            "run can show a building dry that a finer run floods. Repeat both scenes at a finer resolution before a "
+            "difference is used. The report of each run says why, and which spacing it needs.",
             bad, loaded);
     fputs("</div></li>\n", out);
 }

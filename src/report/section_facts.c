@@ -125,9 +125,10 @@ static void put_reading(FILE *out, const sb_report_page *page)
         out,
         "<section id=\"reading\"><h2>What this run can tell</h2><p>The forces on %z of %z loaded bodies are not "
         "reliable: do not design with them, nor with their moments. <b>What can be read:</b> the course of the "
-        "event, the water levels offshore and the wave’s arrival, which bodies water reaches and about when, and "
-        "which of them are loaded much more than others; between two runs of equal resolution, large changes "
-        "of these.",
+        "event, the water levels offshore and the wave’s arrival, and which bodies are loaded much more than "
+        "others. Not whether a wall keeps water away: flow over a crest that is thinner than about four spacings is "
+        "not "
+        "resolved, and can be missing.",
         bad, judged);
     put_remedy(out, page);
     fputs("</p></section>\n", out);

@@ -56,6 +56,7 @@
       this.graphElement = element.querySelector('.graph');
       this.list = element.querySelector('.series');
       this.items = this.about.items ? [...new Set(this.about.items)] : null;
+      this.item = this.items ? this.items[0] : null;
       this.visible = this.series.map((rows, k) => (this.items ? this.about.items[k] === this.items[0] : k < SHOWN));
       this.head(element);
       this.legend();
@@ -67,6 +68,7 @@
 
     // Shows the lines of one item, with the zoom of the time.
     choose(item) {
+      this.item = item;
       this.visible = this.about.items.map((name) => name === item);
       const range = this.graph.isZoomed('x') ? this.graph.xAxisRange() : null;
       this.legend();
@@ -123,7 +125,8 @@
       const [factor, named] = prefix(unit, most);
       if (factor !== 1) joined = joined.map((row) => row.map((value, k) => (k === 0 || value === null ? value : value * factor)));
       const per = this.flat && /^(N|m³)/.test(unit) ? ' per metre of width' : '';
-      this.unit.textContent = `${name}, ${named}${per}`;
+      const item = this.items ? `${this.item}: ` : ''; // on paper there is no choice
+      this.unit.textContent = `${item}${name}, ${named}${per}`;
       if (this.graph) this.graph.destroy();
       // Names of bodies are never given to dygraphs, which would read them as HTML.
       this.graph = new window.Dygraph(this.graphElement, joined, {
