@@ -65,15 +65,15 @@ double sb_depth_near(const sb_report_run *run, const char *body, const sb_grid *
     return most;
 }
 
-void sb_flooded(const sb_grid *arrival, const sb_grid *depth, double *area, double *most)
+void sb_flooded(const sb_grid *wet, const sb_grid *depth, double *area, double *most)
 {
-    const bool same = depth->values && depth->columns == arrival->columns && depth->rows == arrival->rows;
+    const bool same = depth->values && depth->columns == wet->columns && depth->rows == wet->rows;
     size_t cells = 0;
     *most = NAN;
-    for (size_t i = 0; i < arrival->columns * arrival->rows; i++) {
-        if (!(arrival->values[i] > 0)) continue;
+    for (size_t i = 0; i < wet->columns * wet->rows; i++) {
+        if (!(wet->values[i] > 0)) continue;
         cells++;
         if (same) *most = fmax(*most, (double)depth->values[i]);
     }
-    *area = (double)cells * arrival->cell * arrival->cell;
+    *area = (double)cells * wet->cell * wet->cell;
 }

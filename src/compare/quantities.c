@@ -128,10 +128,12 @@ static sb_status put_values(const sb_comparison *c, sb_items *all, sb_item_kind 
 static sb_status take_map(const sb_comparison *c, sb_items *all, size_t run, const sb_grid *depth, sb_error *error)
 {
     double values[SB_QUANTITIES_MAX] = {NAN, NAN, NAN, NAN, NAN, NAN};
-    sb_grid arrival = {0};
-    if (!sb_map_of(&c->runs[run].run, "arrival_time", &arrival)) return SB_OK;
-    sb_flooded(&arrival, depth, &values[0], &values[1]);
-    sb_grid_free(&arrival);
+    sb_grid wet = {0};
+    /* A depth-averaged run has arrival times at sea, too, but times of inundation only on land. */
+    if (!sb_map_of(&c->runs[run].run, "inundation_time", &wet) && !sb_map_of(&c->runs[run].run, "arrival_time", &wet))
+        return SB_OK;
+    sb_flooded(&wet, depth, &values[0], &values[1]);
+    sb_grid_free(&wet);
     return put_values(c, all, SB_ITEM_MAP, "all", run, values, error);
 }
 

@@ -86,6 +86,17 @@ static void two_scenes(void **state)
     assert_row(csv, "map,all,flooded_area,m²,low", 8, 8, 8, NAN);
     assert_row(csv, "map,all,flooded_area,m²,high", 6, 6, 6, -2);
     assert_row(csv, "map,all,flooded_depth,m,high", 23, 23, 23, 23 - 66);
+    sb_free(csv);
+    /* Times of inundation are only on land. */
+    FILE *f = open_text("high", "maps/inundation_time.asc");
+    fputs("ncols 4\nnrows 4\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n"
+          "-9999 0 0 0\n0 0 0 0\n0 0 0 3\n0 0 0 -9999\n",
+          f);
+    fclose(f);
+    if (COMPARE(&error, "low", "high") != SB_OK) fail_msg("%s", error.text);
+    assert_int_equal(unlink(in_folder("high/maps/inundation_time.asc")), 0);
+    csv = text_of("out/compare.csv");
+    assert_row(csv, "map,all,flooded_area,m²,high", 1, 1, 1, -7);
     assert_has(csv, ",no\n");
     assert_has(csv, ",yes\n");
     sb_free(csv);

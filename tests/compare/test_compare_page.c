@@ -42,7 +42,8 @@ static void one_body_at_a_time(void **state)
     /* The choice stays when another quantity is shown, and so does the colour of a run. */
     chromium_true(browser, "(() => { const s = document.querySelectorAll('#loads select')[1]; s.value = 4;"
                            " s.dispatchEvent(new Event('change')); })()");
-    chromium_await(browser, "document.querySelector('#loads .unit').textContent === 'house: Overturning moment, N m'", 5);
+    chromium_await(browser, "document.querySelector('#loads .unit').textContent === 'house: Overturning moment, N m'",
+                   5);
     assert_true(chromium_true(browser, "shorebreakReport.plots[0].visible.map(Number).join('') === '0011'"));
     assert_true(chromium_true(browser, "shorebreakReport.plots[0].colour(0) === shorebreakReport.plots[0].colour(2)"));
     assert_true(chromium_true(browser, "shorebreakReport.plots[0].colour(0) !== shorebreakReport.plots[0].colour(1)"));
