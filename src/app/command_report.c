@@ -9,12 +9,13 @@
 #include <unistd.h>
 
 static const char help[] =
-    "usage: shorebreak report RUN_DIR [--out FILE] [--title TEXT] [--quiet]\n"
+    "usage: shorebreak report RUN_DIR [--out FILE] [--title TEXT] [--film] [--quiet]\n"
     "Writes one HTML page about a run that anyone can open without a network: pictures, forces, loads on bodies, "
     "water\n"
     "levels, inundation, how far to trust the results, and what repeats the run. Also of a run that has not ended.\n\n"
     "  --out FILE    write the page to FILE (default: RUN_DIR/report.html)\n"
     "  --title TEXT  title of the page (default: the scene's title)\n"
+    "  --film        put the run's film into the page instead of the strip of pictures, if the page stays below 5 MB\n"
     "  --quiet       print nothing\n";
 
 /* Reading a FIFO in the place of a run's file would block. */
@@ -46,7 +47,7 @@ static sb_status report(const sb_options *options, sb_error *error)
 {
     char path[SB_PATH_MAX];
     size_t bytes = 0;
-    const sb_report_options page = {.title = options->title};
+    const sb_report_options page = {.title = options->title, .film = options->film};
     sb_status status = check_run(options->positional, error);
     if (status == SB_OK && options->out)
         snprintf(path, sizeof path, "%s", options->out);
@@ -62,8 +63,8 @@ int sb_command_report(int count, char **arguments)
 {
     sb_options options;
     sb_error error = {0};
-    sb_status status =
-        sb_options_parse(count, arguments, SB_OPT_OUT | SB_OPT_TITLE | SB_OPT_QUIET, "run directory", &options, &error);
+    sb_status status = sb_options_parse(count, arguments, SB_OPT_OUT | SB_OPT_TITLE | SB_OPT_FILM | SB_OPT_QUIET,
+                                        "run directory", &options, &error);
     if (status == SB_OK && options.help) {
         fputs(help, stdout);
         return 0;

@@ -7,6 +7,7 @@ int sb_command_check(int count, char **arguments);
 int sb_command_sample(int count, char **arguments);
 int sb_command_render(int count, char **arguments);
 int sb_command_report(int count, char **arguments);
+int sb_command_compare(int count, char **arguments);
 int sb_command_surface(int count, char **arguments);
 int sb_command_replay(int count, char **arguments);
 int sb_command_list(int count, char **arguments);

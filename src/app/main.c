@@ -25,6 +25,8 @@ static const struct {
     {"render", "draw pictures from a finished run's particle files, or from a recorded stream", sb_command_render,
      false},
     {"report", "write one HTML page about a run: pictures, loads, water, inundation, trust", sb_command_report, false},
+    {"compare", "write the differences of runs: loads on buildings, water, inundation, side-by-side film",
+     sb_command_compare, true},
     {"surface", "write the surface of the water of a run's particle files as meshes", sb_command_surface, false},
     {"replay", "publish a recorded stream again", sb_command_replay, false},
     {"list", "list the available kernels, wave makers, solvers and presets", sb_command_list, true},

@@ -41,6 +41,7 @@ static const flag flags[] = {
     {"--times", SB_OPT_TIMES, VALUE},
     {"--cell", SB_OPT_CELL, VALUE},
     {"--smooth", SB_OPT_SMOOTH, VALUE},
+    {"--film", SB_OPT_FILM, NO_VALUE},
 };
 
 static sb_status add_override(sb_options *options, const char *text, sb_error *error)
@@ -134,6 +135,9 @@ static sb_status take(sb_options *options, unsigned bit, const char *value, sb_e
     case SB_OPT_QUIET:
         options->quiet = true;
         break;
+    case SB_OPT_FILM:
+        options->film = true;
+        break;
     case SB_OPT_OTHER_BUILD:
         options->other_build = true;
         break;
@@ -196,6 +200,19 @@ static sb_status refuse_flag(const char *argument, unsigned accepted, sb_error *
                                    "%.200s: not an option of this command; --help lists the options", argument);
 }
 
+static sb_status take_positional(sb_options *options, unsigned accepted, const char *argument, const char *what,
+                                 sb_error *error)
+{
+    if (options->positional && !(accepted & SB_OPT_SEVERAL))
+        return sb_fail(error, SB_BAD_INPUT, "%.200s: expected one %s, and %.200s was given before", argument, what,
+                       options->positional);
+    if (options->positional_count == SB_POSITIONALS_MAX)
+        return sb_fail(error, SB_BAD_INPUT, "%.200s: more than %d of %s", argument, SB_POSITIONALS_MAX, what);
+    if (!options->positional) options->positional = argument;
+    options->positionals[options->positional_count++] = argument;
+    return SB_OK;
+}
+
 sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const char *what, sb_options *options,
                            sb_error *error)
 {
@@ -207,10 +224,8 @@ sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const
             return SB_OK;
         }
         if (argument[0] != '-') {
-            if (options->positional)
-                return sb_fail(error, SB_BAD_INPUT, "%.200s: expected one %s, and %.200s was given before", argument,
-                               what, options->positional);
-            options->positional = argument;
+            const sb_status status = take_positional(options, accepted, argument, what, error);
+            if (status != SB_OK) return status;
             continue;
         }
         const flag *found = find_flag(argument, accepted);

@@ -7,25 +7,27 @@
 
 #include <stdbool.h>
 
-enum { SB_OVERRIDES_MAX = 256 };
+enum { SB_OVERRIDES_MAX = 256, SB_POSITIONALS_MAX = 64 };
 
 typedef struct sb_options {
     const char *positional; /* scene, run directory or table, by command */
-    const char *out;        /* --out */
-    const char *preset;     /* --preset */
-    const char *camera;     /* --camera */
-    const char *title;      /* --title */
-    const char *url;        /* --url */
-    const char *prefix;     /* --prefix */
-    const char *format;     /* --format */
-    const char *times;      /* --times */
-    double cell;            /* --cell; spacings */
-    int smooth;             /* --smooth; rounds */
-    double speed;           /* --speed; 1 if it is not given */
-    int live_port;          /* --live; 0: not given */
-    char live_address[64];  /* --live=ADDRESS:PORT; empty: loopback */
-    int threads;            /* --threads; 0: OMP_NUM_THREADS, or one per core */
-    bool quiet, json, profile, resume, overwrite, other_build, help;
+    size_t positional_count;
+    const char *positionals[SB_POSITIONALS_MAX]; /* with SB_OPT_SEVERAL; the first one is `positional` */
+    const char *out;                             /* --out */
+    const char *preset;                          /* --preset */
+    const char *camera;                          /* --camera */
+    const char *title;                           /* --title */
+    const char *url;                             /* --url */
+    const char *prefix;                          /* --prefix */
+    const char *format;                          /* --format */
+    const char *times;                           /* --times */
+    double cell;                                 /* --cell; spacings */
+    int smooth;                                  /* --smooth; rounds */
+    double speed;                                /* --speed; 1 if it is not given */
+    int live_port;                               /* --live; 0: not given */
+    char live_address[64];                       /* --live=ADDRESS:PORT; empty: loopback */
+    int threads;                                 /* --threads; 0: OMP_NUM_THREADS, or one per core */
+    bool quiet, json, profile, resume, overwrite, other_build, film, help;
     size_t override_count;
     sb_override overrides[SB_OVERRIDES_MAX];
     char *texts[SB_OVERRIDES_MAX]; /* owned copies; the overrides point into them */
@@ -54,7 +56,9 @@ enum {
     SB_OPT_FORMAT = 262144,
     SB_OPT_TIMES = 524288,
     SB_OPT_CELL = 1048576,
-    SB_OPT_SMOOTH = 2097152
+    SB_OPT_SMOOTH = 2097152,
+    SB_OPT_FILM = 4194304,
+    SB_OPT_SEVERAL = 8388608 /* more than one positional argument */
 };
 
 /* Parses the arguments after the command's name. what: the name of the positional argument in messages. */

@@ -8,8 +8,7 @@
 
 /* ---- cells ---- */
 
-/* Quoted only where RFC 4180 requires it. */
-static void put_name(FILE *stream, const char *name)
+void sb_csv_put_name(FILE *stream, const char *name)
 {
     if (!strpbrk(name, ",\"\r\n")) {
         fputs(name, stream);
@@ -29,7 +28,7 @@ static void begin(FILE *stream, double time, const char *name)
     fprintf(stream, "%.12g", time);
     if (name) {
         fputc(',', stream);
-        put_name(stream, name);
+        sb_csv_put_name(stream, name);
     }
 }
 

@@ -27,4 +27,7 @@ extern const sb_csv_table sb_csv_tables[];
 /* The name of a table; NULL after the last one. */
 const char *sb_csv_name(size_t table);
 
+/* Writes a name as a cell, quoted only where RFC 4180 requires it. */
+void sb_csv_put_name(FILE *stream, const char *name);
+
 #endif

@@ -9,6 +9,19 @@ static double ratio(double a, double b)
     return b > 0 ? a / b : 0;
 }
 
+/* The box around the body at t = 0. */
+static void put_box(sb_json *json, const sb_mesh *mesh)
+{
+    if (mesh->vertex_count == 0) return;
+    sb_vec3 min = mesh->vertices[0], max = min;
+    for (size_t i = 1; i < mesh->vertex_count; i++) {
+        min = sb_min(min, mesh->vertices[i]);
+        max = sb_max(max, mesh->vertices[i]);
+    }
+    sb_json_vector(json, "min_m", min);
+    sb_json_vector(json, "max_m", max);
+}
+
 static void put_bodies(sb_json *json, const sb_summary *summary)
 {
     sb_json_open(json, "bodies", '[');
@@ -23,6 +36,7 @@ static void put_bodies(sb_json *json, const sb_summary *summary)
         sb_json_vector(json, "impulse_vector_Ns", body->impulse);
         sb_json_vector(json, "moment_impulse_Nms", body->moment);
         sb_json_vector(json, "moment_point_m", summary->model->bodies[b].moment_point);
+        put_box(json, &summary->model->bodies[b].mesh);
         sb_trust_put(json, &summary->model->bodies[b], body);
         sb_json_close(json);
     }

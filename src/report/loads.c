@@ -92,3 +92,10 @@ void sb_loads_free(sb_loads *loads)
     sb_free(loads->loads);
     *loads = (sb_loads){0};
 }
+
+double sb_force_unit(double greatest, bool per_m, const char **name)
+{
+    const bool mega = greatest >= 1e7, kilo = greatest >= 1e3;
+    *name = mega ? per_m ? "MN/m" : "MN" : kilo ? per_m ? "kN/m" : "kN" : per_m ? "N/m" : "N";
+    return mega ? 1e-6 : kilo ? 1e-3 : 1;
+}

@@ -31,4 +31,7 @@ typedef struct sb_loads {
 sb_status sb_loads_make(const sb_report_run *run, sb_loads *loads, sb_error *error);
 void sb_loads_free(sb_loads *loads);
 
+/* kN or MN, by the greatest of the values; per_m: "/m" follows in 2D. Returns the factor from N. */
+double sb_force_unit(double greatest, bool per_m, const char **name);
+
 #endif

@@ -4,6 +4,7 @@
 
 #include "base/status.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* The first bytes of a report, by which one is recognised as ours. */
@@ -13,6 +14,7 @@ enum { SB_REPORT_BYTES_MAX = 5000000 }; /* of a page: its parts have limits that
 
 typedef struct sb_report_options {
     const char *title;    /* of the page; NULL: the scene's title */
+    bool film;            /* the film of the first camera that has one, instead of the strip of pictures */
     const char *dygraphs; /* folder of dygraphs; NULL: where Debian's libjs-dygraphs has it */
 } sb_report_options;
 

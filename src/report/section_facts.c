@@ -1,9 +1,12 @@
 /* Title, state, results at a glance, and the facts of the scene. */
 #include "report/sections.h"
 
+#include "base/memory.h"
+#include "frame/records.h"
 #include "report/html.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
@@ -21,7 +24,7 @@ static void put_load_tiles(FILE *out, const sb_report_page *page)
     char figure[SB_FIGURE_MAX], label[160];
     const char *unit;
     if (page->loads->reached == 0) return;
-    const double scale = sb_report_force_unit(load->horizontal, page->run->flat, &unit);
+    const double scale = sb_force_unit(load->horizontal, page->run->flat, &unit);
     snprintf(label, sizeof label, "greatest horizontal force, on %.64s", load->name);
     put_tile(out, sb_figure(figure, scale * load->horizontal), unit, label);
     snprintf(figure, sizeof figure, "%zu of %zu", page->loads->reached, page->loads->count);
@@ -65,6 +68,72 @@ static void put_trust_tile(FILE *out, const sb_loads *loads)
     put_tile(out, figure, "", "loaded bodies whose force is not reliable");
 }
 
+static int by_size(const void *a, const void *b)
+{
+    const double one = *(const double *)a, other = *(const double *)b;
+    return (one > other) - (one < other);
+}
+
+/* The spacings, in increasing order, at which the flow towards each loaded body would be as deep as its force needs.
+   Returns their number. The depth in m is taken to be that of this run. */
+static size_t needed_spacings(const sb_report_page *page, double *spacings)
+{
+    const double spacing = sb_report_number(page->run, "resolution_m");
+    size_t count = 0;
+    for (size_t i = 0; i < page->loads->reached; i++) {
+        const sb_load *load = &page->loads->loads[i];
+        if (load->coarse && load->layers > 0 && spacing > 0)
+            spacings[count++] = spacing * load->layers / SB_LAYERS_TRUSTED;
+    }
+    if (count > 1) qsort(spacings, count, sizeof *spacings, by_size);
+    return count;
+}
+
+/* As much as the depth of a coarse flow can tell. */
+static double two_digits(double value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.1e", value);
+    return strtod(text, NULL);
+}
+
+static void put_remedy(FILE *out, const sb_report_page *page)
+{
+    double *spacings = sb_alloc(page->loads->reached, sizeof *spacings);
+    const size_t count = spacings ? needed_spacings(page, spacings) : 0;
+    if (count > 0)
+        sb_html_put(
+            out,
+            " <b>What to change:</b> a finer <code>resolution</code>. By the depths of this run, about %g m resolves "
+            "the flow at half of these bodies and %g m at all of them. Half the spacing costs eight times the "
+            "particles and about sixteen times the run time; a smaller domain, or a coarse run that gives the "
+            "water for a fine one, saves most of it.",
+            two_digits(spacings[(count - 1) / 2]), two_digits(spacings[0]));
+    sb_free(spacings);
+}
+
+/* Where most forces are not reliable: what can be read from the run all the same. */
+static void put_reading(FILE *out, const sb_report_page *page)
+{
+    size_t bad = 0, judged = 0;
+    for (size_t i = 0; i < page->loads->reached; i++) {
+        judged += page->loads->loads[i].judged;
+        bad += page->loads->loads[i].coarse || page->loads->loads[i].narrow;
+    }
+    if (bad == 0 || 2 * bad < judged) return;
+    sb_html_put(
+        out,
+        "<section id=\"reading\"><h2>What this run can tell</h2><p>The forces on %z of %z loaded bodies are not "
+        "reliable: do not design with them, nor with their moments. <b>What can be read:</b> the course of the "
+        "event, the water levels offshore and the wave’s arrival, and which bodies are loaded much more than "
+        "others. Not whether a wall keeps water away: flow over a crest that is thinner than about four spacings is "
+        "not "
+        "resolved, and can be missing.",
+        bad, judged);
+    put_remedy(out, page);
+    fputs("</p></section>\n", out);
+}
+
 void sb_section_head(FILE *out, const sb_report_page *page)
 {
     const char *status = sb_report_status(page->run);
@@ -84,6 +153,7 @@ void sb_section_head(FILE *out, const sb_report_page *page)
     put_water_tile(out, &page->run->tables[SB_REPORT_GAUGES], 2, "highest water (z), at gauge");
     put_trust_tile(out, page->loads);
     fputs("</section>\n", out);
+    put_reading(out, page);
 }
 
 /* ---- facts ---- */

@@ -57,7 +57,7 @@ static void put_table(FILE *out, const sb_report_page *page)
     const bool flat = page->run->flat;
     const char *force;
     char moment[16], impulse[16];
-    const double unit = sb_report_force_unit(loads->loads[0].horizontal, flat, &force);
+    const double unit = sb_force_unit(loads->loads[0].horizontal, flat, &force);
     const char *prefix = unit < 1e-4 ? "M" : unit < 1 ? "k" : "";
     snprintf(moment, sizeof moment, "%sN\u202fm%s", prefix, flat ? "/m" : "");
     snprintf(impulse, sizeof impulse, "%sN\u202fs%s", prefix, flat ? "/m" : "");
@@ -65,7 +65,7 @@ static void put_table(FILE *out, const sb_report_page *page)
     put_head(out, force, moment, impulse);
     fputs("<tbody>", out);
     for (size_t i = 0; i < loads->reached; i++)
-        put_row(out, &loads->loads[i], unit, i < page->shares[SB_REPORT_FORCES].series);
+        put_row(out, &loads->loads[i], unit, i < page->plots[SB_REPORT_FORCES].count);
     fputs("</tbody></table></div>\n", out);
     if (loads->reached < loads->count) {
         fputs("<p class=\"note\">No force acted on: ", out);
@@ -99,7 +99,7 @@ void sb_section_loads(FILE *out, const sb_report_page *page)
     else if (page->loads->reached == 0)
         fputs("<p class=\"note\">No force acted on any body.</p>", out);
     else {
-        sb_report_plot(out, page, SB_REPORT_FORCES, "Force on bodies, the six with the greatest loads first.");
+        sb_plot_put(out, &page->plots[SB_REPORT_FORCES], "Force on bodies, the six with the greatest loads first.");
         put_table(out, page);
         put_meaning(out, page);
     }

@@ -3,116 +3,34 @@
 
 #include "base/memory.h"
 #include "output/maps.h"
-#include "report/grid.h"
 #include "report/html.h"
+#include "report/map_figure.h"
 
 #include <errno.h>
 #include <math.h>
-#include <string.h>
 
-enum { SIDE_MAX = 500 }; /* cells of a map in the page */
+typedef struct marks {
+    size_t count;
+    sb_map_mark *marks;
+} marks;
 
-/* A step of 1, 2 or 5 times a power of ten, of which about four fit into the length. */
-static double tick_of(double length)
+static void list_marks(const sb_report_page *page, marks *all)
 {
-    const double rough = length / 4, power = pow(10, floor(log10(rough))), ratio = rough / power;
-    return power * (ratio < 1.5 ? 1 : ratio < 3.5 ? 2 : ratio < 7.5 ? 5 : 10);
-}
-
-/* Coordinates of the drawing: px, 100 per shorter side or more; y points down. */
-typedef struct frame {
-    double x_min, y_max, scale, width, height;
-} frame;
-
-static double px(const frame *f, double x)
-{
-    return (x - f->x_min) * f->scale;
-}
-
-static double py(const frame *f, double y)
-{
-    return (f->y_max - y) * f->scale;
-}
-
-static void put_axes(FILE *out, const frame *f)
-{
-    char figure[SB_FIGURE_MAX];
-    const double length_x = f->width / f->scale, length_y = f->height / f->scale;
-    const double tick = tick_of(fmax(length_x, length_y)), y_min = f->y_max - length_y;
-    fputs("<g class=\"axes\">", out);
-    for (double x = ceil(f->x_min / tick) * tick; x <= f->x_min + length_x * 1.0001; x += tick)
-        fprintf(out, "<path d=\"M%.1f %.1fv6\"/><text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>", px(f, x),
-                f->height, px(f, x), f->height + 22, sb_figure(figure, x));
-    for (double y = ceil(y_min / tick) * tick; y <= f->y_max * 1.0001; y += tick)
-        fprintf(out, "<path d=\"M0 %.1fh-6\"/><text x=\"-10\" y=\"%.1f\" text-anchor=\"end\">%s</text>", py(f, y),
-                py(f, y) + 5, sb_figure(figure, y));
-    fputs("</g>", out);
-}
-
-static bool inside(const frame *f, double x, double y)
-{
-    return px(f, x) >= 0 && px(f, x) <= f->width && py(f, y) >= 0 && py(f, y) <= f->height;
-}
-
-/* Bodies with forces as squares, gauges as circles; their names appear under the pointer. */
-static void put_marks(FILE *out, const sb_report_page *page, const frame *f)
-{
-    const sb_report_run *run = page->run;
-    fputs("<g class=\"marks\">", out);
+    const sb_measure_settings *measure = page->run->has_scene ? &page->run->scene.measure : NULL;
+    all->marks = sb_alloc(page->loads->count + (measure ? measure->gauge_count : 0), sizeof *all->marks);
+    if (!all->marks) return; /* the maps are of use without them */
     for (size_t i = 0; i < page->loads->count; i++) {
         const sb_load *load = &page->loads->loads[i];
-        if (!load->has_point || !inside(f, load->point[0], load->point[1])) continue;
-        fprintf(out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"8\" height=\"8\">", px(f, load->point[0]) - 4,
-                py(f, load->point[1]) - 4);
-        sb_html_put(out, "<title>%s</title></rect>", load->name);
+        if (load->has_point)
+            all->marks[all->count++] = (sb_map_mark){load->name, load->point[0], load->point[1], false};
     }
-    for (size_t i = 0; run->has_scene && i < run->scene.measure.gauge_count; i++) {
-        const sb_gauge *gauge = &run->scene.measure.gauges[i];
-        if (!inside(f, gauge->x, gauge->y)) continue;
-        fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"5\">", px(f, gauge->x), py(f, gauge->y));
-        sb_html_put(out, "<title>gauge %s</title></circle>", gauge->name);
-    }
-    fputs("</g>", out);
-}
-
-static void put_legend(FILE *out, const sb_stops *stops, const char *label, double low, double high)
-{
-    sb_html_put(out, "<div class=\"scale\"><span>%g</span><i style=\"background:linear-gradient(90deg", low);
-    for (size_t k = 0; k < stops->count; k++)
-        fprintf(out, ",#%02x%02x%02x %.0f%%", stops->rgb[k][0], stops->rgb[k][1], stops->rgb[k][2], 100 * stops->at[k]);
-    sb_html_put(out, ")\"></i><span>%g</span></div><figcaption>%s</figcaption>", high, label);
-}
-
-static sb_status put_map(FILE *out, const sb_report_page *page, const sb_map_row *row, sb_grid *grid, sb_error *error)
-{
-    const sb_stops stops = sb_stops_of(row->palette);
-    const double low = row->from_zero ? fmin(0, grid->low) : grid->low;
-    sb_image image = {0};
-    unsigned char *bytes = NULL;
-    size_t size = 0;
-    sb_status status = sb_grid_draw(grid, &stops, low, grid->high, &image, error);
-    if (status == SB_OK) status = sb_png_encode(&image, &bytes, &size, error);
-    sb_image_free(&image);
-    if (status != SB_OK) return status;
-    const double wide = grid->cell * (double)grid->columns, high = grid->cell * (double)grid->rows;
-    const double scale = 600 / fmax(wide, high);
-    const frame f = {grid->x_min, grid->y_min + high, scale, scale * wide, scale * high};
-    fprintf(out, "<figure class=\"map\"><svg viewBox=\"-64 -10 %.1f %.1f\" role=\"img\">", f.width + 84, f.height + 42);
-    fprintf(out, "<image width=\"%.1f\" height=\"%.1f\" preserveAspectRatio=\"none\" href=\"data:image/png;base64,",
-            f.width, f.height);
-    sb_html_base64(out, bytes, size);
-    fprintf(out, "\"/><rect class=\"edge\" width=\"%.1f\" height=\"%.1f\"/>", f.width, f.height);
-    put_axes(out, &f);
-    put_marks(out, page, &f);
-    fputs("</svg>", out);
-    put_legend(out, &stops, row->label, low, grid->high);
-    fputs("</figure>\n", out);
-    sb_free(bytes);
-    return SB_OK;
+    for (size_t i = 0; measure && i < measure->gauge_count; i++)
+        all->marks[all->count++] =
+            (sb_map_mark){measure->gauges[i].name, measure->gauges[i].x, measure->gauges[i].y, true};
 }
 
 /* Returns whether there is such a map. */
-static bool put_row(FILE *out, const sb_report_page *page, const sb_map_row *row)
+static bool put_row(FILE *out, const sb_report_page *page, const sb_map_row *row, const marks *all)
 {
     char path[SB_PATH_MAX], name[64];
     sb_grid grid = {0};
@@ -122,11 +40,13 @@ static bool put_row(FILE *out, const sb_report_page *page, const sb_map_row *row
     sb_status status = sb_path_join(path, page->run->directory, name, &error);
     if (status == SB_OK) status = sb_grid_read(path, &grid, &error);
     if (status != SB_OK && errno == ENOENT) return false;
-    if (status == SB_OK) status = sb_grid_coarsen(&grid, SIDE_MAX, &error);
+    if (status == SB_OK) status = sb_grid_coarsen(&grid, SB_MAP_SIDE_MAX, &error);
     if (status == SB_OK && grid.wet == 0)
         sb_html_put(out, "<p class=\"note\">%s: no cell was wet.</p>", row->label);
-    else if (status == SB_OK)
-        status = put_map(out, page, row, &grid, &error);
+    else if (status == SB_OK) {
+        const sb_map_look look = {row->label, row->palette, row->from_zero ? fmin(0, grid.low) : grid.low, grid.high};
+        status = sb_map_figure(out, &grid, &look, all->marks, all->count, &error);
+    }
     if (status != SB_OK) sb_html_put(out, "<p class=\"missing\">%s</p>", error.text);
     sb_grid_free(&grid);
     return true;
@@ -135,8 +55,10 @@ static bool put_row(FILE *out, const sb_report_page *page, const sb_map_row *row
 void sb_section_maps(FILE *out, const sb_report_page *page)
 {
     size_t count = 0;
+    marks all = {0};
+    list_marks(page, &all);
     fputs("<section id=\"maps\"><h2>Inundation</h2>\n<div class=\"maps\">", out);
-    for (const sb_map_row *row = sb_map_rows; row->name; row++) count += put_row(out, page, row);
+    for (const sb_map_row *row = sb_map_rows; row->name; row++) count += put_row(out, page, row, &all);
     fputs("</div>\n", out);
     if (count > 0)
         fputs("<p class=\"note\">x and y in m. Grey cells never were wet. Squares are bodies, circles are gauges.</p>",
@@ -144,4 +66,5 @@ void sb_section_maps(FILE *out, const sb_report_page *page)
     else
         fputs("<p class=\"note\">The run has no maps.</p>", out);
     fputs("</section>\n", out);
+    sb_free(all.marks);
 }

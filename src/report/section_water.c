@@ -76,11 +76,11 @@ static void put_shown(FILE *out, const sb_report_page *page, const shown *s)
     if (table->count == 0) return;
     const bool flat = s->table == SB_REPORT_OVERTOPPING && page->run->flat;
     sb_html_put(out, "<h3>%s%s</h3>", s->title, flat ? ", per metre of width" : "");
-    sb_report_plot(out, page, s->table, s->caption);
+    sb_plot_put(out, &page->plots[s->table], s->caption);
     sb_html_put(out, "<div class=\"wide\"><table><thead><tr><th>%s</th>", s->item);
     for (size_t c = 0; c < 4 && s->cells[c].head; c++) sb_html_put(out, "<th>%s</th>", s->cells[c].head);
     fputs("<th class=\"csv\">Series</th></tr></thead><tbody>\n", out);
-    for (size_t i = 0; i < page->shares[s->table].series; i++) {
+    for (size_t i = 0; i < page->plots[s->table].count; i++) {
         const sb_series *series = &table->series[i];
         sb_html_put(out, "<tr><th scope=\"row\">%s</th>", series->name);
         for (size_t c = 0; c < 4 && s->cells[c].head; c++)

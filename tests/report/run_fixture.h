@@ -55,13 +55,13 @@ static inline void make_run(void)
                "{\"event\":\"start\",\"version\":\"0.1.0\",\"fluid_particles\":5000,\"warnings\":[\"a thin plate\"]}\n"
                "{\"event\":\"arguments\",\"folder\":\"/somewhere\",\"arguments\":[\"run\",\"a b.yaml\",\"--quiet\"]}\n"
                "{\"event\":\"step\",\"step\":100,\"time_s\":9.5,\"lost\":0}\n");
-    write_text(
-        "run/summary.json",
-        "{\"version\":\"0.1.0\",\"title\":\"A quiet basin\",\"status\":\"done\",\"simulated_s\":10,\"steps\":100,"
-        "\"fluid_particles\":5000,\"compression_mean\":0.0001,\"compression_max\":0.01,\"capped_steps\":0,"
-        "\"lost_particles\":0,\"bodies\":[{\"name\":\"body-0\",\"flow_layers\":2.5,\"too_coarse\":true,"
-        "\"gap_m\":null,\"narrow_gap\":false,\"moment_point_m\":[1,0.5,0]},{\"name\":\"body-1\","
-        "\"flow_layers\":6,\"too_coarse\":false,\"gap_m\":0.07,\"narrow_gap\":true}]}\n");
+    write_text("run/summary.json",
+               "{\"version\":\"0.1.0\",\"title\":\"A quiet "
+               "basin\",\"status\":\"done\",\"simulated_s\":10,\"resolution_m\":0.1,\"steps\":100,"
+               "\"fluid_particles\":5000,\"compression_mean\":0.0001,\"compression_max\":0.01,\"capped_steps\":0,"
+               "\"lost_particles\":0,\"bodies\":[{\"name\":\"body-0\",\"flow_layers\":2.5,\"too_coarse\":true,"
+               "\"gap_m\":null,\"narrow_gap\":false,\"moment_point_m\":[1,0.5,0]},{\"name\":\"body-1\","
+               "\"flow_layers\":6,\"too_coarse\":false,\"gap_m\":0.07,\"narrow_gap\":true}]}\n");
     write_text("run/gauges.csv", "time_s,gauge,eta_m,z_m\n0,near,,0.5\n0.1,near,,0.6\n0.2,near,,\n0.3,near,,0.4\n");
     write_text("run/energy.csv", "time_s,kinetic_J,potential_J,mass_kg,momentum_x_kg_m_s,momentum_y_kg_m_s,"
                                  "momentum_z_kg_m_s,bodies_J,viscosity_J,wall_friction_J,pressure_solve_J,contact_J,"

@@ -32,6 +32,57 @@ static void page_of_a_run(void **state)
     sb_free(text);
 }
 
+/* Both forces are flagged: the page begins with what can be read, and the spacing that 2.5 layers of 0.1 m need. */
+static void what_a_coarse_run_can_tell(void **state)
+{
+    (void)state;
+    make_run();
+    char *text = report_text();
+    assert_has(text, "The forces on 2 of 2 loaded bodies are not reliable");
+    assert_has(text, "about 0.062 m resolves");
+    assert_true(strstr(text, "What this run can tell") < strstr(text, "id=\"pictures\""));
+    assert_has(text, "not reliable</td>"); /* the table keeps its flags */
+    sb_free(text);
+    write_text("run/summary.json", "{\"status\":\"done\",\"bodies\":[{\"name\":\"body-0\",\"flow_layers\":6,"
+                                   "\"too_coarse\":false,\"narrow_gap\":false}]}");
+    text = report_text();
+    assert_null(strstr(text, "What this run can tell"));
+    sb_free(text);
+}
+
+/* A film of the size is in the page, and a larger one stays out with a reason. */
+static void film_in_the_page(void **state)
+{
+    (void)state;
+    static const size_t sizes[] = {9, 2000000, 4500000};
+    char *text = NULL;
+    make_run();
+    FILE *scene = fopen(in_folder("run/scene.yaml"), "w");
+    fprintf(scene, "%srender: {interval: 1, cameras: [{name: side, eye: [0, -3, 1], target: [0, 0, 0]}]}\n",
+            scene_text);
+    assert_int_equal(fclose(scene), 0);
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        FILE *film = fopen(in_folder("run/side.mp4"), "w");
+        for (size_t i = 0; i < sizes[s]; i++) fputc('x', film);
+        assert_int_equal(fclose(film), 0);
+        const sb_report_options options = {.film = true};
+        size_t bytes = 0;
+        assert_int_equal(sb_report_write(in_folder("run"), in_folder("page.html"), &options, &bytes, NULL), SB_OK);
+        assert_true(bytes < SB_REPORT_BYTES_MAX);
+        assert_true((bytes > sizes[s]) == (s < 2));
+        text = text_of("page.html");
+        assert_has(text, s < 2 ? "src=\"data:video/mp4;base64,eHh4" : "The film is not in this page");
+        sb_free(text);
+    }
+    unlink(in_folder("run/side.mp4"));
+    assert_int_equal(
+        sb_report_write(in_folder("run"), in_folder("page.html"), &(sb_report_options){.film = true}, NULL, NULL),
+        SB_OK);
+    text = text_of("page.html");
+    assert_has(text, "The run has no film");
+    sb_free(text);
+}
+
 /* Names and texts are data, wherever they stand. */
 static void hostile_names(void **state)
 {
@@ -215,6 +266,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(page_of_a_run),
+        cmocka_unit_test(what_a_coarse_run_can_tell),
+        cmocka_unit_test(film_in_the_page),
         cmocka_unit_test(hostile_names),
         cmocka_unit_test(a_run_that_has_not_ended),
         cmocka_unit_test(missing_and_damaged_files),

@@ -55,10 +55,25 @@
       this.flat = this.about.columns.some((name) => name.endsWith('_per_m'));
       this.graphElement = element.querySelector('.graph');
       this.list = element.querySelector('.series');
-      this.visible = this.series.map((rows, k) => k < SHOWN);
+      this.items = this.about.items ? [...new Set(this.about.items)] : null;
+      this.item = this.items ? this.items[0] : null;
+      this.visible = this.series.map((rows, k) => (this.items ? this.about.items[k] === this.items[0] : k < SHOWN));
       this.head(element);
       this.legend();
+      this.view = 0;
       this.show(0);
+    }
+
+    colour(k) { return colour(this.about.colours ? this.about.colours[k] : k); }
+
+    // Shows the lines of one item, with the zoom of the time.
+    choose(item) {
+      this.item = item;
+      this.visible = this.about.items.map((name) => name === item);
+      const range = this.graph.isZoomed('x') ? this.graph.xAxisRange() : null;
+      this.legend();
+      this.show(this.view);
+      if (range) this.graph.updateOptions({ dateWindow: range });
     }
 
     head(element) {
@@ -67,10 +82,16 @@
       const reset = make('button', { type: 'button', textContent: 'Whole time' });
       reset.addEventListener('click', () => this.graph && this.graph.resetZoom());
       head.append(this.unit);
+      if (this.items && this.items.length > 1) {
+        const select = make('select', { ariaLabel: 'Body, gauge or line' });
+        this.items.forEach((name, i) => select.append(make('option', { value: i, textContent: name })));
+        select.addEventListener('change', () => this.choose(this.items[Number(select.value)]));
+        head.append(select);
+      }
       if (this.views.length > 1) {
         const select = make('select', { ariaLabel: 'Quantity' });
         this.views.forEach(([name], v) => select.append(make('option', { value: v, textContent: name })));
-        select.addEventListener('change', () => this.show(Number(select.value)));
+        select.addEventListener('change', () => { this.view = Number(select.value); this.show(this.view); });
         head.append(select);
       }
       head.append(reset);
@@ -83,7 +104,7 @@
       this.outputs = this.about.names.map(() => make('output', {}));
       this.list.replaceChildren(...this.about.names.map((name, k) => {
         const item = make('li', {}), button = make('button', { type: 'button' }), mark = make('i', {});
-        mark.style.background = colour(k);
+        mark.style.background = this.colour(k);
         button.append(mark, make('span', { textContent: name }), this.outputs[k]);
         button.setAttribute('aria-pressed', String(this.visible[k]));
         button.addEventListener('click', () => {
@@ -92,6 +113,7 @@
           if (this.graph) this.graph.setVisibility(k, this.visible[k]);
         });
         item.append(button);
+        item.hidden = this.items !== null && !this.visible[k];
         return item;
       }));
     }
@@ -103,11 +125,12 @@
       const [factor, named] = prefix(unit, most);
       if (factor !== 1) joined = joined.map((row) => row.map((value, k) => (k === 0 || value === null ? value : value * factor)));
       const per = this.flat && /^(N|m³)/.test(unit) ? ' per metre of width' : '';
-      this.unit.textContent = `${name}, ${named}${per}`;
+      const item = this.items ? `${this.item}: ` : ''; // on paper there is no choice
+      this.unit.textContent = `${item}${name}, ${named}${per}`;
       if (this.graph) this.graph.destroy();
       // Names of bodies are never given to dygraphs, which would read them as HTML.
       this.graph = new window.Dygraph(this.graphElement, joined, {
-        labels: ['t', ...this.about.names.map((_, k) => `s${k}`)], colors: this.about.names.map((_, k) => colour(k)),
+        labels: ['t', ...this.about.names.map((_, k) => `s${k}`)], colors: this.about.names.map((_, k) => this.colour(k)),
         visibility: this.visible.slice(), legend: 'never', xlabel: 't, s', strokeWidth: 1.4, gridLineColor: '#e6ebf0',
         axisLineColor: '#c5ced7', axisLabelFontSize: 11, xLabelHeight: 14, connectSeparatedPoints: true,
         axes: { x: { pixelsPerLabel: 60 }, y: { pixelsPerLabel: 30, axisLabelWidth: 54 } }, animatedZooms: false,
