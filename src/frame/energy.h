@@ -24,6 +24,7 @@ typedef struct sb_ledger {
     double left;        /* minus the energy of particles that left the domain */
     double stress;      /* deviatoric stress correction */
     double sea;         /* water that crosses sides of kind sea, and what holds their water to the given sea */
+    double sponge;      /* what sponges take */
 } sb_ledger;
 
 /* What has crossed the sides of kind sea since t = 0. All members are of eight bytes. */

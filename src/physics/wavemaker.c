@@ -10,7 +10,12 @@
     ROW(goring_rayleigh)                                                                                               \
     ROW(stroke)                                                                                                        \
     ROW(file)                                                                                                          \
-    ROW(gate)
+    ROW(gate)                                                                                                          \
+    ROW(regular)                                                                                                       \
+    ROW(irregular)                                                                                                     \
+    ROW(components)                                                                                                    \
+    ROW(focused)                                                                                                       \
+    ROW(signal)
 
 #define DECLARE(name) extern const sb_wavemaker sb_wavemaker_##name;
 #define POINT(name) &sb_wavemaker_##name,
@@ -33,10 +38,10 @@ sb_status sb_wavemaker_check(const sb_wavemaker_parameters *parameters, sb_error
         const char *name, *unit;
         double value;
     } keys[] = {
-        {SB_WM_HEIGHT, "height", "m", parameters->height},
-        {SB_WM_DEPTH, "depth", "m", parameters->depth},
-        {SB_WM_STROKE, "stroke", "m", parameters->stroke},
-        {SB_WM_SPEED, "speed", "m/s", parameters->speed},
+        {SB_WM_HEIGHT, "height", "m", parameters->height}, {SB_WM_DEPTH, "depth", "m", parameters->depth},
+        {SB_WM_STROKE, "stroke", "m", parameters->stroke}, {SB_WM_SPEED, "speed", "m/s", parameters->speed},
+        {SB_WM_PERIOD, "period", "s", parameters->period}, {SB_WM_DISTANCE, "distance", "m", parameters->distance},
+        {SB_WM_FOCUS, "focus", "s", parameters->focus},
     };
     const char *law = parameters->kind->name;
     unsigned needs = parameters->kind->needs;
@@ -48,6 +53,15 @@ sb_status sb_wavemaker_check(const sb_wavemaker_parameters *parameters, sb_error
         return sb_fail(error, SB_BAD_INPUT, "wave maker %s: no file, expected a time-displacement table", law);
     if (!(parameters->start > -HUGE_VAL))
         return sb_fail(error, SB_BAD_INPUT, "wave maker %s: start is %g s, expected a number", law, parameters->start);
+    if (needs & SB_WM_TRAIN && !(parameters->lasts > 0))
+        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: lasts is %g s, expected more than 0", law,
+                       parameters->lasts);
+    if (needs & SB_WM_TRAIN && !(parameters->gravity > 0))
+        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: gravity is %g m/s^2, expected more than 0", law,
+                       parameters->gravity);
+    if (needs & SB_WM_SPECTRUM && !(parameters->components > 0))
+        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: components is %d, expected more than 0", law,
+                       parameters->components);
     if (parameters->after == SB_AFTER_RETURN && !(parameters->return_time > 0 && isfinite(parameters->return_time)))
         return sb_fail(error, SB_BAD_INPUT, "wave maker %s: return_time is %g s, expected more than 0", law,
                        parameters->return_time);
@@ -65,7 +79,7 @@ sb_status sb_paddle_create(const sb_wavemaker_parameters *parameters, sb_paddle 
     status = made.kind->create(parameters, &made.state, error);
     if (status != SB_OK) return status;
     made.duration = made.kind->duration(made.state);
-    made.stroke_end = made.kind->displacement(made.state, made.duration);
+    made.stroke_end = isfinite(made.duration) ? made.kind->displacement(made.state, made.duration) : 0;
     *paddle = made;
     return SB_OK;
 }
