@@ -22,11 +22,37 @@ static size_t visit_trains(const sb_scene *scene, visit_train *visit, void *cont
     return count;
 }
 
+/* Reflection by linear theory at the period of the waves, by an absorbing paddle; NaN: it does not absorb. */
+static double paddle_reflection(const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
+{
+    sb_paddle own = *paddle;
+    sb_absorbing_filter filter;
+    const double distance = SB_ABSORB_DISTANCE * scene->resolution;
+    if (!maker->law.absorb || sb_paddle_fit_absorption(&maker->law, &own, distance, &filter, NULL) != SB_OK)
+        return (double)NAN;
+    return sb_absorbing_reflection(&filter, maker->law.motion, 2 * M_PI / paddle->kind->facts(paddle->state)->period,
+                                   maker->law.depth, scene->fluid.gravity, distance);
+}
+
+static void print_absorption(const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
+{
+    const double reflection = paddle_reflection(scene, maker, paddle);
+    if (isnan(reflection)) return;
+    printf("    absorbs within %.3g m of its law; predicted reflection at %.4g s %.2g %%\n", maker->law.reach,
+           paddle->kind->facts(paddle->state)->period, 100 * reflection);
+}
+
 static void print_train(void *context, const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
 {
     (void)context;
     const sb_wave_facts *f = paddle->kind->facts(paddle->state);
     const double spacing = scene->resolution;
+    if (!(f->height > 0)) {
+        printf("  absorber %s: waves of %.4g s on %g m, wavelength %.4g m\n", maker->name, f->period, f->depth,
+               f->length);
+        print_absorption(scene, maker, paddle);
+        return;
+    }
     printf("  waves of %s: %s, %s\n"
            "    %s %.4g m, period %.4g s%s, depth %g m, wavelength %.4g m\n"
            "    kd %.3g, steepness H/L %.3g, Ursell number H L^2/d^3 %.3g\n"
@@ -34,6 +60,7 @@ static void print_train(void *context, const sb_scene *scene, const sb_wavemaker
            maker->name, maker->law.kind->name, f->theory, f->height_name, f->height, f->period,
            f->count > 2 ? " at the peak" : "", f->depth, f->length, f->number * f->depth, f->height / f->length,
            f->ursell, f->height / spacing, f->length / spacing, f->travel);
+    print_absorption(scene, maker, paddle);
 }
 
 /* Reflected over incident amplitude by linear theory. */
@@ -53,9 +80,9 @@ void sb_check_waves_text(const sb_scene *scene)
     visit_trains(scene, print_train, NULL);
     for (size_t s = 0; s < scene->sponge_count; s++) {
         const sb_sponge *sponge = &scene->sponges[s];
-        printf("  sponge %s: %.3g wavelengths of %.4g m, strength %.3g 1/s; predicted reflection %.2g %%\n", sponge->name,
-               sponge->length / wavelength_of(scene, sponge), wavelength_of(scene, sponge), sponge->strength,
-               100 * reflection_of(scene, sponge));
+        printf("  sponge %s: %.3g wavelengths of %.4g m, strength %.3g 1/s; predicted reflection %.2g %%\n",
+               sponge->name, sponge->length / wavelength_of(scene, sponge), wavelength_of(scene, sponge),
+               sponge->strength, 100 * reflection_of(scene, sponge));
     }
 }
 
@@ -76,6 +103,7 @@ static void put_train(void *context, const sb_scene *scene, const sb_wavemaker_u
     sb_json_number(json, "particles_per_height", f->height / scene->resolution);
     sb_json_number(json, "particles_per_wavelength", f->length / scene->resolution);
     sb_json_number(json, "travel_m", f->travel);
+    if (maker->law.absorb) sb_json_number(json, "predicted_reflection", paddle_reflection(scene, maker, paddle));
     sb_json_close(json);
 }
 

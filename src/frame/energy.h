@@ -4,6 +4,7 @@
 
 #include "base/vec.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* Kinetic and potential energy (J, potential from z = domain min), momentum (kg m/s), mass (kg). */
@@ -35,5 +36,12 @@ typedef struct sb_crossing {
     sb_vec3 momentum; /* kg m/s, of the particles, net inwards */
     sb_vec3 push;     /* kg m/s, by what holds the water of the strips */
 } sb_crossing;
+
+/* What an absorbing paddle has done. */
+typedef struct sb_absorption {
+    bool absorbs;
+    double offset, farthest; /* m, distance from its law: at the end of the step, and the largest so far */
+    uint64_t limited;        /* steps in which its reach stopped it */
+} sb_absorption;
 
 #endif

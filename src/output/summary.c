@@ -55,6 +55,25 @@ void sb_summary_put_work(sb_json *json, const sb_ledger *work)
     sb_json_close(json);
 }
 
+/* The list "absorbers" of the paddles that absorb; nothing without one. */
+static void put_absorptions(sb_json *json, const sb_summary *s)
+{
+    bool open = false;
+    for (size_t b = 0; s->absorptions && b < s->model->body_count; b++) {
+        const sb_absorption *a = &s->absorptions[b];
+        if (!a->absorbs) continue;
+        if (!open) sb_json_open(json, "absorbers", '[');
+        open = true;
+        sb_json_open(json, NULL, '{');
+        sb_json_text(json, "body", s->model->bodies[b].name);
+        sb_json_number(json, "offset_m", a->offset);
+        sb_json_number(json, "farthest_m", a->farthest);
+        sb_json_count(json, "limited_steps", a->limited);
+        sb_json_close(json);
+    }
+    if (open) sb_json_close(json);
+}
+
 static void put_reflections(sb_json *json, const sb_summary *s)
 {
     sb_json_open(json, "reflections", '[');
@@ -153,6 +172,7 @@ static void put_all(sb_json *json, const sb_summary *s)
     sb_json_count(json, "pictures_missing", s->pictures_missing);
     sb_json_hash(json, "state_hash", s->hash);
     put_bodies(json, s);
+    put_absorptions(json, s);
     if (s->reflection_count > 0) put_reflections(json, s);
     sb_summary_put_energy(json, "energy_start", &s->first);
     sb_summary_put_energy(json, "energy_end", &s->last);

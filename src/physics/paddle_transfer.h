@@ -14,8 +14,8 @@ typedef enum sb_paddle_motion {
    Dalrymple 1991]. */
 double sb_paddle_gain(sb_paddle_motion motion, double number, double depth);
 
-/* Surface of the waves that stay near the paddle, at a distance from it in m, over the paddle's displacement, with which
-   they are in phase. */
+/* Surface of the waves that stay near the paddle, at a distance from it in m, over the paddle's displacement, with
+   which they are in phase. */
 double sb_paddle_evanescent(sb_paddle_motion motion, double omega, double depth, double gravity, double distance);
 
 /* Amplitude in m of the paddle's motion at twice the frequency, for which second-order waves of a height have no free
@@ -24,15 +24,16 @@ double sb_paddle_second(double height, double number, double depth);
 
 /* The velocity of the paddle over the surface at a distance from it, for which no wave is sent back: of surface less
    that of the waves to be made, with time as exp(i omega t). */
-double complex sb_paddle_absorbing(sb_paddle_motion motion, double omega, double depth, double gravity, double distance);
+double complex sb_paddle_absorbing(sb_paddle_motion motion, double omega, double depth, double gravity,
+                                   double distance);
 
 /* One frequency of the waves to be absorbed, and its energy. */
 typedef struct sb_band_part {
     double omega, weight;
 } sb_band_part;
 
-/* velocity = -gain pole/(s + pole) of the surface without its slow part, which two filters s/(s + slow) remove. gain and
-   pole are positive, so that the filter takes energy at all frequencies. */
+/* velocity = -gain pole/(s + pole) of the surface without its slow part, which two filters s/(s + slow) remove. gain
+   and pole are positive, so that the filter takes energy at all frequencies. */
 typedef struct sb_absorbing_filter {
     double gain; /* 1/s */
     double pole; /* 1/s; infinity: no lag */

@@ -7,8 +7,7 @@
 double sb_spectrum_shape(sb_spectrum_kind kind, double gamma, double peak, double frequency)
 {
     const double r = frequency / peak, width = r <= 1 ? 0.07 : 0.09;
-    const double enhanced =
-        kind == SB_SPECTRUM_JONSWAP ? pow(gamma, exp(-(r - 1) * (r - 1) / (2 * width * width))) : 1;
+    const double enhanced = kind == SB_SPECTRUM_JONSWAP ? pow(gamma, exp(-(r - 1) * (r - 1) / (2 * width * width))) : 1;
     return pow(r, -5) * exp(-1.25 * pow(r, -4)) * enhanced;
 }
 

@@ -104,7 +104,7 @@ size_t sb_wave_train_band(const void *state, sb_band_part *band, size_t capacity
 {
     const sb_wave_train *train = state;
     size_t count = 0;
-    if (train->is_cnoidal && capacity > 0) band[count++] = (sb_band_part){2 * M_PI / train->facts.period, 1};
+    if (train->count == 0 && capacity > 0) band[count++] = (sb_band_part){2 * M_PI / train->facts.period, 1};
     for (size_t i = 0; i < train->count && count < capacity; i++) {
         const sb_train_part *p = &train->part[i];
         if (!p->bound && p->amplitude > 0) band[count++] = (sb_band_part){p->omega, p->amplitude * p->amplitude};
@@ -116,6 +116,9 @@ const sb_wave_facts *sb_wave_train_facts(const void *state)
 {
     return &((const sb_wave_train *)state)->facts;
 }
+
+/* Angular frequency of the waves over the rate at which an absorbing paddle forgets levels: its time is 6.4 periods. */
+static const double SLOW = 40;
 
 /* The travel within the first LONGEST periods after the ramp. */
 static double travel_of(const sb_wave_train *train)
@@ -137,9 +140,10 @@ void sb_wave_train_complete(sb_wave_train *train)
     sb_wave_facts *facts = &train->facts;
     facts->ramp = train->ramp = train->ramp < 0 ? 2 * facts->period : train->ramp;
     train->origin = train->ramp > 0 ? 0 : full_displacement(train, 0);
+    facts->slow = 2 * M_PI / facts->period / SLOW;
     facts->depth = train->depth;
-    facts->number = facts->length > 0 ? 2 * M_PI / facts->length
-                                      : sb_wave_number(facts->period, train->depth, train->gravity);
+    facts->number =
+        facts->length > 0 ? 2 * M_PI / facts->length : sb_wave_number(facts->period, train->depth, train->gravity);
     facts->length = 2 * M_PI / facts->number;
     facts->ursell = facts->height * facts->length * facts->length / (train->depth * train->depth * train->depth);
     facts->count = train->count;

@@ -47,8 +47,8 @@ const sb_wave_facts *sb_wave_train_facts(const void *state);
 void sb_wave_train_destroy(void *state);
 
 #define SB_WAVE_TRAIN_LAW                                                                                              \
-    .displacement = sb_wave_train_displacement, .duration = sb_wave_train_duration,                                    \
-    .place = sb_wave_train_place, .surface = sb_wave_train_surface, .band = sb_wave_train_band,                        \
-    .facts = sb_wave_train_facts, .destroy = sb_wave_train_destroy
+    .displacement = sb_wave_train_displacement, .duration = sb_wave_train_duration, .place = sb_wave_train_place,      \
+    .surface = sb_wave_train_surface, .band = sb_wave_train_band, .facts = sb_wave_train_facts,                        \
+    .destroy = sb_wave_train_destroy
 
 #endif

@@ -1,6 +1,8 @@
 /* The table of paddle laws, and the motion of a paddle in scene time. */
 #include "physics/wavemaker.h"
 
+#include "base/memory.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -15,7 +17,8 @@
     ROW(irregular)                                                                                                     \
     ROW(components)                                                                                                    \
     ROW(focused)                                                                                                       \
-    ROW(signal)
+    ROW(signal)                                                                                                        \
+    ROW(absorber)
 
 #define DECLARE(name) extern const sb_wavemaker sb_wavemaker_##name;
 #define POINT(name) &sb_wavemaker_##name,
@@ -62,6 +65,9 @@ sb_status sb_wavemaker_check(const sb_wavemaker_parameters *parameters, sb_error
     if (needs & SB_WM_SPECTRUM && !(parameters->components > 0))
         return sb_fail(error, SB_BAD_INPUT, "wave maker %s: components is %d, expected more than 0", law,
                        parameters->components);
+    if (parameters->absorb && !(parameters->reach > 0))
+        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: reach is %g m, expected more than 0", law,
+                       parameters->reach);
     if (parameters->after == SB_AFTER_RETURN && !(parameters->return_time > 0 && isfinite(parameters->return_time)))
         return sb_fail(error, SB_BAD_INPUT, "wave maker %s: return_time is %g s, expected more than 0", law,
                        parameters->return_time);
@@ -100,4 +106,23 @@ void sb_paddle_destroy(sb_paddle *paddle)
 {
     if (paddle->kind) paddle->kind->destroy(paddle->state);
     *paddle = (sb_paddle){0};
+}
+
+sb_status sb_paddle_fit_absorption(const sb_wavemaker_parameters *parameters, sb_paddle *paddle, double distance,
+                                   sb_absorbing_filter *filter, sb_error *error)
+{
+    const sb_wave_facts *facts = paddle->kind->facts(paddle->state);
+    const size_t most = facts->count + 1;
+    sb_band_part *band = sb_alloc(most, sizeof *band);
+    if (!band) return sb_fail_memory(error, "an absorbing paddle");
+    const size_t count = paddle->kind->band(paddle->state, band, most);
+    paddle->kind->place(paddle->state, distance);
+    *filter = sb_absorbing_filter_of(parameters->motion, band, count, facts->slow, parameters->depth,
+                                     parameters->gravity, distance);
+    sb_free(band);
+    if (filter->gain > 0 && isfinite(filter->gain)) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT,
+                   "absorb: its water is measured %g m ahead of the paddle, more than a quarter of its shortest waves, "
+                   "expected a finer resolution, longer waves, or absorb: false",
+                   distance);
 }

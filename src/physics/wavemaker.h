@@ -8,6 +8,7 @@
 #include "physics/regular_wave.h"
 #include "physics/spectrum.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -38,6 +39,8 @@ typedef struct sb_wavemaker_parameters {
     uint64_t seed;   /* of their phases and frequencies */
     double distance; /* m ahead of the paddle: where waves focus, or a signal was measured */
     double focus;    /* s after the start, when they focus */
+    bool absorb;     /* the paddle also takes waves that come back */
+    double reach;    /* m, the farthest that it moves from its law for that */
 } sb_wavemaker_parameters;
 
 enum {
@@ -64,6 +67,7 @@ typedef struct sb_wave_facts {
     double length, number, ursell; /* m; 1/m; H L^2/d^3 */
     double travel;                 /* m, of the paddle */
     double ramp;                   /* s */
+    double slow;                   /* 1/s, rate at which an absorbing paddle forgets levels and returns */
     size_t count;                  /* parts of the sum; 0: a cnoidal wave */
 } sb_wave_facts;
 
@@ -111,5 +115,12 @@ sb_status sb_paddle_create(const sb_wavemaker_parameters *parameters, sb_paddle 
 /* Returns the displacement in m at scene time t. It is continuous, and its speed is continuous during the return. */
 double sb_paddle_displacement(const sb_paddle *paddle, double t);
 void sb_paddle_destroy(sb_paddle *paddle);
+
+/* Fits the filter of an absorbing paddle to its waves, for a surface that is measured `distance` ahead of its face, and
+   sets the place of its law. SB_BAD_INPUT if its waves are too short for that distance. */
+sb_status sb_paddle_fit_absorption(const sb_wavemaker_parameters *parameters, sb_paddle *paddle, double distance,
+                                   sb_absorbing_filter *filter, sb_error *error);
+/* Distance ahead of an absorbing paddle at which its water is measured, in spacings. */
+#define SB_ABSORB_DISTANCE 3
 
 #endif

@@ -1,13 +1,12 @@
-/* Regular waves: a paddle by linear theory, a piston by second-order theory [Madsen 1971], and a piston that follows the
-   water of a cnoidal wave [Goring 1978]. */
+/* Regular waves: a paddle by linear theory, a piston by second-order theory [Madsen 1971], and a piston that follows
+   the water of a cnoidal wave [Goring 1978]. */
 #include "physics/regular_wave.h"
 #include "physics/wave_train.h"
 
 #include <math.h>
 
-static const char *const theory_names[] = {[SB_WAVE_LINEAR] = "linear",
-                                           [SB_WAVE_STOKES2] = "second-order",
-                                           [SB_WAVE_CNOIDAL] = "cnoidal"};
+static const char *const theory_names[] = {
+    [SB_WAVE_LINEAR] = "linear", [SB_WAVE_STOKES2] = "second-order", [SB_WAVE_CNOIDAL] = "cnoidal"};
 
 static sb_status find_wave(const sb_wavemaker_parameters *p, sb_regular_wave *wave, sb_error *error)
 {
@@ -64,5 +63,26 @@ const sb_wavemaker sb_wavemaker_regular = {
     .needs = SB_WM_HEIGHT | SB_WM_DEPTH | SB_WM_PERIOD | SB_WM_THEORY | SB_WM_TRAIN,
     .create = create,
     .warning = warning,
+    SB_WAVE_TRAIN_LAW,
+};
+
+/* A paddle at rest that only absorbs. */
+static sb_status create_absorber(const sb_wavemaker_parameters *parameters, void **state, sb_error *error)
+{
+    if (!parameters->absorb) return sb_fail(error, SB_BAD_INPUT, "absorb: false, expected true for an absorber");
+    sb_wave_train *train = sb_wave_train_create(parameters, 0);
+    if (!train) return sb_fail_memory(error, "a wave maker");
+    train->facts = (sb_wave_facts){.theory = "at rest", .height_name = "height", .period = parameters->period};
+    sb_wave_train_complete(train);
+    *state = train;
+    return SB_OK;
+}
+
+const sb_wavemaker sb_wavemaker_absorber = {
+    .name = "absorber",
+    .summary = "piston at rest that absorbs the waves that reach it",
+    .reference = "Biesel 1951; docs/wave-basin.md",
+    .needs = SB_WM_DEPTH | SB_WM_PERIOD | SB_WM_TRAIN,
+    .create = create_absorber,
     SB_WAVE_TRAIN_LAW,
 };

@@ -10,10 +10,11 @@ static sb_status check_wave(const sb_wavemaker_parameters *p, size_t row, const 
     sb_regular_wave wave;
     sb_error why = {0};
     if (!(v[0] >= 0 && v[1] > 0))
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: wave %zu has the amplitude %g m and the period %g s, expected >= 0 "
-                       "and > 0", p->file, row + 1, v[0], v[1]);
-    if (v[0] == 0 ||
-        sb_regular_wave_create(SB_WAVE_LINEAR, 2 * v[0], v[1], p->depth, p->gravity, &wave, &why) == SB_OK)
+        return sb_fail(error, SB_BAD_INPUT,
+                       "%.500s: wave %zu has the amplitude %g m and the period %g s, expected >= 0 "
+                       "and > 0",
+                       p->file, row + 1, v[0], v[1]);
+    if (v[0] == 0 || sb_regular_wave_create(SB_WAVE_LINEAR, 2 * v[0], v[1], p->depth, p->gravity, &wave, &why) == SB_OK)
         return SB_OK;
     return sb_fail(error, SB_BAD_INPUT, "%.500s: wave %zu: %.300s", p->file, row + 1, why.text);
 }
@@ -22,7 +23,8 @@ static sb_status create_components(const sb_wavemaker_parameters *p, void **stat
 {
     double *values = NULL, square = 0, highest = 0;
     size_t rows = 0;
-    sb_status status = sb_number_rows_read(p->file, 3, "amplitude (m) period (s) phase (degrees)", &values, &rows, error);
+    sb_status status =
+        sb_number_rows_read(p->file, 3, "amplitude (m) period (s) phase (degrees)", &values, &rows, error);
     if (status != SB_OK) return status;
     for (size_t i = 0; i < rows && status == SB_OK; i++) status = check_wave(p, i, values + 3 * i, error);
     sb_wave_train *train = status == SB_OK ? sb_wave_train_create(p, rows) : NULL;
@@ -61,13 +63,15 @@ enum { LEAST_ROWS = 8, MOST_ROWS = 20000 };
 static sb_status check_series(const char *path, series *s, sb_error *error)
 {
     if (s->rows < LEAST_ROWS || s->rows > MOST_ROWS)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: %zu rows, expected %d to %d", path, s->rows, LEAST_ROWS, MOST_ROWS);
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: %zu rows, expected %d to %d", path, s->rows, LEAST_ROWS,
+                       MOST_ROWS);
     s->step = (s->values[2 * (s->rows - 1)] - s->values[0]) / (double)(s->rows - 1);
     for (size_t i = 1; i < s->rows; i++) {
         const double step = s->values[2 * i] - s->values[2 * i - 2];
         if (!(s->step > 0) || fabs(step - s->step) > 0.02 * s->step)
-            return sb_fail(error, SB_BAD_INPUT, "%.500s: row %zu follows after %g s, expected equal steps of about %g s",
-                           path, i + 1, step, s->step);
+            return sb_fail(error, SB_BAD_INPUT,
+                           "%.500s: row %zu follows after %g s, expected equal steps of about %g s", path, i + 1, step,
+                           s->step);
     }
     return SB_OK;
 }
@@ -86,7 +90,8 @@ static void coefficient(const series *s, size_t n, double mean, double *re, doub
     *im *= scale;
 }
 
-/* Share of the series' energy that may be left out at high frequencies: noise of the gauge, which asks for much speed. */
+/* Share of the series' energy that may be left out at high frequencies: noise of the gauge, which asks for much speed.
+ */
 static const double LEFT_OUT = 1e-4;
 
 /* Fills the parts with the lowest frequencies, until all but LEFT_OUT of the energy is in them. */

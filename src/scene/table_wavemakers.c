@@ -74,6 +74,12 @@ static const sb_key keys[] = {
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE, .words = lasts_names,
      .applies = SB_WM_TRAIN, .only = "wave trains", .fallback = "forever",
      .doc = "Time after `start` at which the motion ends; that of `signal` ends with its file at the latest."},
+    {.name = "absorb", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_wavemaker_use, law.absorb),
+     .applies = SB_WM_TRAIN, .only = "wave trains", .derived = "false; true for `absorber`",
+     .doc = "Whether the paddle also moves so that waves which come back are not reflected."},
+    {.name = "reach", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.reach), .unit = "m", SB_KEY_POSITIVE,
+     .applies = SB_WM_TRAIN, .only = "wave trains", .derived = "half of the depth",
+     .doc = "Farthest that an absorbing paddle moves from its law to absorb."},
     {.name = "after", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_wavemaker_use, law.after),
      .words = after_names, .fallback = "stay",
      .doc = "Motion after the stroke: `stay` at its end, or `return` to the start."},
@@ -115,10 +121,19 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     sb_status status = check_direction(reader, map, use);
     if (status != SB_OK) return status;
     use->law.gravity = scene->fluid.gravity;
-    if (use->law.kind->needs & SB_WM_TRAIN && !sb_yaml_child(map, "ramp")) use->law.ramp = -1;
+    if (use->law.kind->needs & SB_WM_TRAIN) {
+        if (!sb_yaml_child(map, "ramp")) use->law.ramp = -1;
+        if (!sb_yaml_child(map, "absorb")) use->law.absorb = strcmp(use->law.kind->name, "absorber") == 0;
+        if (!sb_yaml_child(map, "reach")) use->law.reach = 0.5 * use->law.depth;
+    }
     sb_paddle paddle = {0};
     sb_error why = {0};
+    sb_absorbing_filter filter;
     status = sb_paddle_create(&use->law, &paddle, &why);
+    if (status == SB_OK && use->law.absorb) {
+        status = sb_paddle_fit_absorption(&use->law, &paddle, SB_ABSORB_DISTANCE * scene->resolution, &filter, &why);
+        if (status != SB_OK) sb_paddle_destroy(&paddle);
+    }
     if (status == SB_OK) {
         if (use->law.kind->facts) use->law.ramp = use->law.kind->facts(paddle.state)->ramp;
         sb_paddle_destroy(&paddle);

@@ -22,8 +22,8 @@ static void long_waves_reflect_as_known(void **state)
     const struct {
         double lengths, strength, reflection, within;
     } cases[] = {
-        {0.5, 2.6, 0.037, 6e-4},  {1, 2.6, 0.017, 6e-4},    {1.46, 2.4, 0.0009, 6e-5}, {2, 1.8, 0.0004, 6e-5},
-        {0.5, 4.5, 0.165, 6e-4},  {1, 4.5, 0.050, 6e-4},    {1.46, 4.5, 0.0105, 6e-5}, {2, 4.5, 0.0022, 6e-5},
+        {0.5, 2.6, 0.037, 6e-4}, {1, 2.6, 0.017, 6e-4}, {1.46, 2.4, 0.0009, 6e-5}, {2, 1.8, 0.0004, 6e-5},
+        {0.5, 4.5, 0.165, 6e-4}, {1, 4.5, 0.050, 6e-4}, {1.46, 4.5, 0.0105, 6e-5}, {2, 4.5, 0.0022, 6e-5},
     };
     const double depth = 0.1, period = 40, omega = 2 * M_PI / period;
     const double length = 2 * M_PI / sb_wave_number(period, depth, GRAVITY);

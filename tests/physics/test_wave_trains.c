@@ -89,8 +89,8 @@ static void one_frequency_is_absorbed_entirely(void **state)
         }
 }
 
-/* A gain with no filter at the paddle itself, with the waves that stay ignored, reflects (1 - q)/(1 + q), q = G W/omega:
-   the gain of long waves leaves 9 % at kd 1.53 and 3 % at 0.67. Long waves make few waves that stay. */
+/* A gain with no filter at the paddle itself, with the waves that stay ignored, reflects (1 - q)/(1 + q), q = G
+   W/omega: the gain of long waves leaves 9 % at kd 1.53 and 3 % at 0.67. Long waves make few waves that stay. */
 static void plain_gain_reflects_as_known(void **state)
 {
     (void)state;
@@ -131,8 +131,8 @@ static double surface_of(const sb_wave_train *train, double t, double x)
 {
     double sum = 0;
     for (size_t i = 0; i < train->count; i++)
-        sum += train->part[i].amplitude *
-               cos(train->part[i].omega * t + train->part[i].phase - train->part[i].number * x);
+        sum +=
+            train->part[i].amplitude * cos(train->part[i].omega * t + train->part[i].phase - train->part[i].number * x);
     return sum;
 }
 
@@ -147,8 +147,8 @@ static void regular_waves_choose_their_theory(void **state)
     assert_near(train->ramp, 2 * p.period, 1e-12);
     const double omega = 2 * M_PI / p.period, t = 17.3;
     const double stroke = p.height / sb_paddle_gain(SB_PADDLE_PISTON, train->facts.number, p.depth);
-    const double expected = 0.5 * stroke * sin(omega * t) +
-                            sb_paddle_second(p.height, train->facts.number, p.depth) * sin(2 * omega * t);
+    const double expected =
+        0.5 * stroke * sin(omega * t) + sb_paddle_second(p.height, train->facts.number, p.depth) * sin(2 * omega * t);
     assert_near(sb_wave_train_displacement(train, t), expected, 1e-12);
     sb_wave_train_destroy(train);
     p.period = 2;
@@ -211,8 +211,8 @@ static void irregular_waves_have_their_height_and_peak(void **state)
     assert_true(at_peak > 0.4 * m0 && at_peak < 0.6 * m0);
     double all = 0, squares = 0;
     for (double f = 0.5005; f < 3; f += 0.001) {
-        const double s = exp(-1.25 / pow(f, 4)) / pow(f, 5) *
-                         pow(3.3, exp(-0.5 * pow((f - 1) / (f <= 1 ? 0.07 : 0.09), 2)));
+        const double s =
+            exp(-1.25 / pow(f, 4)) / pow(f, 5) * pow(3.3, exp(-0.5 * pow((f - 1) / (f <= 1 ? 0.07 : 0.09), 2)));
         all += s;
         squares += s * f * f;
     }
@@ -268,6 +268,45 @@ static void signal_is_made_at_its_distance(void **state)
     sb_wave_train_destroy(train);
 }
 
+/* Root mean square of the reflected share over the energy of a train. */
+static double reflected_of(const sb_wave_train *train, const sb_absorbing_filter *filter, double distance)
+{
+    double sum = 0, all = 0;
+    for (size_t i = 0; i < train->count; i++) {
+        const double weight = train->part[i].amplitude * train->part[i].amplitude;
+        const double r =
+            sb_absorbing_reflection(filter, SB_PADDLE_PISTON, train->part[i].omega, train->depth, GRAVITY, distance);
+        sum += weight * r * r;
+        all += weight;
+    }
+    return sqrt(sum / all);
+}
+
+/* JONSWAP waves: the filter is far better than the gain omega/W of the peak alone. */
+static void spectra_are_absorbed(void **state)
+{
+    (void)state;
+    for (double kd = 0.4; kd < 2; kd *= 1.5) {
+        sb_wavemaker_parameters p = parameters_of("irregular");
+        const double omega = sqrt(GRAVITY * kd / p.depth * tanh(kd)), distance = 0.15 * p.depth;
+        p.period = 2 * M_PI / omega;
+        p.height = 0.02;
+        sb_paddle paddle = {.kind = p.kind};
+        sb_wave_train *train = train_of(&p);
+        sb_absorbing_filter filter;
+        sb_error error = {0};
+        paddle.state = train;
+        if (sb_paddle_fit_absorption(&p, &paddle, distance, &filter, &error) != SB_OK) fail_msg("%s", error.text);
+        const sb_absorbing_filter plain = {omega / sb_paddle_gain(SB_PADDLE_PISTON, kd / p.depth, p.depth),
+                                           (double)INFINITY, filter.slow};
+        const double r = reflected_of(train, &filter, distance), other = reflected_of(train, &plain, distance);
+        printf("kd %.3g at the peak: %.3g %% reflected, %.3g %% by the gain alone\n", kd, 100 * r, 100 * other);
+        assert_true(r < 0.5 * other);
+        assert_true(kd > 1 || r < 0.05);
+        sb_wave_train_destroy(train);
+    }
+}
+
 /* The surface that is expected at a place: waves that leave and waves that stay. */
 static void surface_near_the_paddle_contains_all_waves(void **state)
 {
@@ -297,6 +336,7 @@ int main(void)
         cmocka_unit_test(irregular_waves_have_their_height_and_peak),
         cmocka_unit_test(focused_waves_meet_at_their_place_and_time),
         cmocka_unit_test(signal_is_made_at_its_distance),
+        cmocka_unit_test(spectra_are_absorbed),
         cmocka_unit_test(surface_near_the_paddle_contains_all_waves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -62,7 +62,9 @@ static sb_wavemaker_parameters good_parameters(const sb_wavemaker *kind)
                                      .gamma = 3.3,
                                      .components = 50,
                                      .distance = 4,
-                                     .focus = 15};
+                                     .focus = 15,
+                                     .absorb = strcmp(kind->name, "absorber") == 0,
+                                     .reach = 0.5};
 }
 
 static sb_paddle make_paddle(const sb_wavemaker_parameters *parameters)
