@@ -214,12 +214,18 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
     summary.work = sb_sim_ledger(r->sim);
     sb_absorption *absorptions = find_absorptions(r);
     summary.absorptions = absorptions;
+    sb_gauge_waves *waves = NULL;
+    if (r->measure && r->scene->measure.waves.present &&
+        sb_wave_table_write(r->directory, r->scene, &waves, &reason) != SB_OK)
+        sb_run_warn(r, "waves.csv: %s", reason.text);
+    summary.waves = waves;
     sb_status found = sb_run_path(r, "summary.json", path, &reason);
     if (r->measure &&
         sb_measure_reflections(r->measure, &summary.reflections, &summary.reflection_count, &reason) != SB_OK)
         sb_run_warn(r, "%s", reason.text);
     if (found == SB_OK) found = sb_summary_write(path, &summary, &reason);
     sb_free(absorptions);
+    sb_free(waves);
     /* An earlier failure stays the reason. This failure is still reported, because the summary on disk says "running".
      */
     if (found != SB_OK && *status == SB_FAILED) sb_run_warn(r, "%s", reason.text);

@@ -74,6 +74,24 @@ static void put_absorptions(sb_json *json, const sb_summary *s)
     if (open) sb_json_close(json);
 }
 
+static void put_waves(sb_json *json, const sb_summary *s)
+{
+    sb_json_open(json, "waves", '[');
+    for (size_t g = 0; g < s->scene->measure.gauge_count; g++) {
+        const sb_wave_heights *h = &s->waves[g].heights;
+        sb_json_open(json, NULL, '{');
+        sb_json_text(json, "gauge", s->scene->measure.gauges[g].name);
+        sb_json_count(json, "waves", h->count);
+        sb_json_number(json, "mean_height_m", h->mean);
+        sb_json_number(json, "significant_height_m", h->significant);
+        sb_json_number(json, "highest_m", h->highest);
+        sb_json_number(json, "mean_period_s", h->period);
+        sb_json_number(json, "spectral_height_m", h->spectral);
+        sb_json_close(json);
+    }
+    sb_json_close(json);
+}
+
 static void put_reflections(sb_json *json, const sb_summary *s)
 {
     sb_json_open(json, "reflections", '[');
@@ -173,6 +191,7 @@ static void put_all(sb_json *json, const sb_summary *s)
     sb_json_hash(json, "state_hash", s->hash);
     put_bodies(json, s);
     put_absorptions(json, s);
+    if (s->waves) put_waves(json, s);
     if (s->reflection_count > 0) put_reflections(json, s);
     sb_summary_put_energy(json, "energy_start", &s->first);
     sb_summary_put_energy(json, "energy_end", &s->last);

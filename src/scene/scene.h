@@ -286,6 +286,12 @@ typedef struct sb_map {
     double threshold; /* m; water has arrived when the depth at the start, or later its rise, is this */
 } sb_map;
 
+/* Heights and periods of the waves at all gauges. */
+typedef struct sb_wave_settings {
+    bool present;
+    double start, period; /* s: first row that is used; period of the harmonics, 0: none */
+} sb_wave_settings;
+
 typedef struct sb_measure {
     double interval; /* s between rows of forces, gauges, probes */
     size_t gauge_count;
@@ -299,6 +305,7 @@ typedef struct sb_measure {
     size_t reflection_count;
     sb_reflection_set *reflections;
     sb_map map;
+    sb_wave_settings waves;
 } sb_measure_settings;
 
 /* Heights on a grid of the depth-averaged model: terrain, or an uplift of the surface. */

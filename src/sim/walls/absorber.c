@@ -81,8 +81,7 @@ double sb_absorber_advance(sb_sim *sim, sb_moving_body *moving)
     const double dt = sim->state.time_step, depth = column(sim, moving);
     if (!a->known) a->still = depth;
     a->known = true;
-    const double expected =
-        moving->paddle.kind->surface(moving->paddle.state, sim->state.time - moving->paddle.start);
+    const double expected = moving->paddle.kind->surface(moving->paddle.state, sim->state.time - moving->paddle.start);
     const double surface = depth - a->still - expected;
     a->low += (surface - a->low) * -expm1(-a->filter.slow * dt);
     a->fast += (surface - a->low - a->fast) * -expm1(-a->filter.pole * dt);
@@ -138,11 +137,12 @@ void sb_absorbers_load(sb_sim *sim, sb_archive_in *in)
         double *const fields[REALS] = {&a->still, &a->low, &a->fast, &a->offset, &a->speed, &a->farthest};
         for (int k = 0; k < REALS; k++) {
             *fields[k] = isfinite(reals[k]) ? reals[k] : 0;
-            if (!isfinite(reals[k])) sb_archive_refuse(in, "an absorbing paddle has the value %g, expected a finite one",
-                                                       reals[k]);
+            if (!isfinite(reals[k]))
+                sb_archive_refuse(in, "an absorbing paddle has the value %g, expected a finite one", reals[k]);
         }
         if (!(fabs(a->offset) <= a->reach))
-            sb_archive_refuse(in, "an absorbing paddle is %g m from its law, expected at most %g m", a->offset, a->reach);
+            sb_archive_refuse(in, "an absorbing paddle is %g m from its law, expected at most %g m", a->offset,
+                              a->reach);
     }
 }
 

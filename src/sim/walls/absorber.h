@@ -7,9 +7,9 @@
 
 typedef struct sb_absorber {
     sb_absorbing_filter filter;
-    double face, distance;  /* m along the direction: face at rest; place ahead of it where its water is measured */
+    double face, distance;   /* m along the direction: face at rest; place ahead of it where its water is measured */
     double side[2], from[2]; /* unit vector along the face in x and y; its extent along that, m */
-    double reach;           /* m */
+    double reach;            /* m */
     /* state */
     bool known;               /* the column at rest is */
     double still;             /* m, depth of the water beside it at the start, by its particles */
