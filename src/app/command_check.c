@@ -1,3 +1,4 @@
+#include "app/check_waves.h"
 #include "app/commands.h"
 #include "app/fit.h"
 #include "app/grid_water.h"
@@ -131,6 +132,7 @@ static void report_text(const sb_scene *scene, const sb_model *model, const esti
     printf("  still depth        %g m (%.1f particles)\n", model->still_depth, model->still_depth / scene->resolution);
     if (e->sea) printf("  given water        %s\n", sb_sea_about(e->sea));
     for (int side = 0; side < 4; side++) report_sea(model, side);
+    sb_check_waves_text(scene);
     printf("  memory             about %.0f MB\n", e->memory / 1e6);
     printf("  steps              about %.0f of %.3g s\n", e->steps, e->time_step);
     if (e->settling > 0)
@@ -156,6 +158,7 @@ static void report_json(const sb_scene *scene, const sb_model *model, const esti
     sb_json_number(&json, "ghost_particles", e->ghosts);
     sb_json_number(&json, "still_depth_m", model->still_depth);
     if (e->sea) sb_json_text(&json, "given_water", sb_sea_about(e->sea));
+    sb_check_waves_json(scene, &json);
     sb_json_number(&json, "memory_bytes", e->memory);
     sb_json_number(&json, "steps", e->steps);
     sb_json_number(&json, "time_step_s", e->time_step);

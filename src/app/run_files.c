@@ -6,6 +6,7 @@
 #include "output/maps.h"
 #include "output/particle_format.h"
 #include "output/vti.h"
+#include "output/wave_table.h"
 #include "render/image.h"
 #include "report/report.h"
 
@@ -48,6 +49,7 @@ static const struct {
     {TOP, "report", NULL, ".html", SB_REPORT_START, 0},
     {TOP, "control", NULL, ".token", "", 0},
     {TOP, NULL, sb_csv_name, ".csv", "time_s,", GROWS},
+    {TOP, "waves", NULL, ".csv", SB_WAVE_TABLE_START, 0},
     {TOP, SB_VTI_LIST, NULL, ".pvd", "<?xml", 0},
     {CHECKPOINTS, SB_CHECKPOINT_SETTLING, NULL, SB_CHECKPOINT_SUFFIX, SB_CHECKPOINT_KIND, 0},
     {MAPS, NULL, sb_map_name, ".asc", "ncols", 0},

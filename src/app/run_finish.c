@@ -157,6 +157,25 @@ static void stop_consumers(run *r, sb_status *status, sb_error *error)
     sb_missed_report(r);
 }
 
+/* One per body, which the caller frees; NULL without a paddle that absorbs. Warns of those that were stopped. */
+static sb_absorption *find_absorptions(run *r)
+{
+    sb_absorption *all = NULL;
+    for (size_t b = 0; b < r->model.body_count; b++) {
+        const sb_absorption one = sb_sim_absorption(r->sim, b);
+        if (!one.absorbs) continue;
+        if (!all) all = sb_alloc(r->model.body_count, sizeof *all);
+        if (!all) return NULL;
+        all[b] = one;
+        if (one.limited > 0)
+            sb_run_warn(r,
+                        "the absorbing paddle \"%.63s\" was stopped at its reach in %llu steps, in which it reflected "
+                        "waves: expected a larger reach, or lower waves",
+                        r->model.bodies[b].name, (unsigned long long)one.limited);
+    }
+    return all;
+}
+
 static void write_summary(run *r, sb_status *status, sb_error *error)
 {
     char path[SB_PATH_MAX];
@@ -193,11 +212,20 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         .pictures_missing = sb_missed_sum(r, PICTURES).count,
     };
     summary.work = sb_sim_ledger(r->sim);
+    sb_absorption *absorptions = find_absorptions(r);
+    summary.absorptions = absorptions;
+    sb_gauge_waves *waves = NULL;
+    if (r->measure && r->scene->measure.waves.present &&
+        sb_wave_table_write(r->directory, r->scene, &waves, &reason) != SB_OK)
+        sb_run_warn(r, "waves.csv: %s", reason.text);
+    summary.waves = waves;
     sb_status found = sb_run_path(r, "summary.json", path, &reason);
     if (r->measure &&
         sb_measure_reflections(r->measure, &summary.reflections, &summary.reflection_count, &reason) != SB_OK)
         sb_run_warn(r, "%s", reason.text);
     if (found == SB_OK) found = sb_summary_write(path, &summary, &reason);
+    sb_free(absorptions);
+    sb_free(waves);
     /* An earlier failure stays the reason. This failure is still reported, because the summary on disk says "running".
      */
     if (found != SB_OK && *status == SB_FAILED) sb_run_warn(r, "%s", reason.text);

@@ -4,6 +4,7 @@
 
 #include "base/vec.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* Kinetic and potential energy (J, potential from z = domain min), momentum (kg m/s), mass (kg). */
@@ -24,6 +25,7 @@ typedef struct sb_ledger {
     double left;        /* minus the energy of particles that left the domain */
     double stress;      /* deviatoric stress correction */
     double sea;         /* water that crosses sides of kind sea, and what holds their water to the given sea */
+    double sponge;      /* what sponges take */
 } sb_ledger;
 
 /* What has crossed the sides of kind sea since t = 0. All members are of eight bytes. */
@@ -34,5 +36,12 @@ typedef struct sb_crossing {
     sb_vec3 momentum; /* kg m/s, of the particles, net inwards */
     sb_vec3 push;     /* kg m/s, by what holds the water of the strips */
 } sb_crossing;
+
+/* What an absorbing paddle has done. */
+typedef struct sb_absorption {
+    bool absorbs;
+    double offset, farthest; /* m, distance from its law: at the end of the step, and the largest so far */
+    uint64_t limited;        /* steps in which its reach stopped it */
+} sb_absorption;
 
 #endif

@@ -65,6 +65,44 @@ void sb_summary_put_work(sb_json *json, const sb_ledger *work)
     sb_json_number(json, "left_domain_J", work->left);
     sb_json_number(json, "packing_stress_J", work->stress);
     sb_json_number(json, "sea_J", work->sea);
+    sb_json_number(json, "sponge_J", work->sponge);
+    sb_json_close(json);
+}
+
+/* The list "absorbers" of the paddles that absorb; nothing without one. */
+static void put_absorptions(sb_json *json, const sb_summary *s)
+{
+    bool open = false;
+    for (size_t b = 0; s->absorptions && b < s->model->body_count; b++) {
+        const sb_absorption *a = &s->absorptions[b];
+        if (!a->absorbs) continue;
+        if (!open) sb_json_open(json, "absorbers", '[');
+        open = true;
+        sb_json_open(json, NULL, '{');
+        sb_json_text(json, "body", s->model->bodies[b].name);
+        sb_json_number(json, "offset_m", a->offset);
+        sb_json_number(json, "farthest_m", a->farthest);
+        sb_json_count(json, "limited_steps", a->limited);
+        sb_json_close(json);
+    }
+    if (open) sb_json_close(json);
+}
+
+static void put_waves(sb_json *json, const sb_summary *s)
+{
+    sb_json_open(json, "waves", '[');
+    for (size_t g = 0; g < s->scene->measure.gauge_count; g++) {
+        const sb_wave_heights *h = &s->waves[g].heights;
+        sb_json_open(json, NULL, '{');
+        sb_json_text(json, "gauge", s->scene->measure.gauges[g].name);
+        sb_json_count(json, "waves", h->count);
+        sb_json_number(json, "mean_height_m", h->mean);
+        sb_json_number(json, "significant_height_m", h->significant);
+        sb_json_number(json, "highest_m", h->highest);
+        sb_json_number(json, "mean_period_s", h->period);
+        sb_json_number(json, "spectral_height_m", h->spectral);
+        sb_json_close(json);
+    }
     sb_json_close(json);
 }
 
@@ -166,6 +204,8 @@ static void put_all(sb_json *json, const sb_summary *s)
     sb_json_count(json, "pictures_missing", s->pictures_missing);
     sb_json_hash(json, "state_hash", s->hash);
     put_bodies(json, s);
+    put_absorptions(json, s);
+    if (s->waves) put_waves(json, s);
     if (s->reflection_count > 0) put_reflections(json, s);
     sb_summary_put_energy(json, "energy_start", &s->first);
     sb_summary_put_energy(json, "energy_end", &s->last);

@@ -3,10 +3,12 @@
 #define SB_OUTPUT_SUMMARY_H
 
 #include "frame/departures.h"
+#include "frame/energy.h"
 #include "frame/records.h"
 #include "frame/stage_time.h"
 #include "geometry/model/model.h"
 #include "output/json.h"
+#include "output/wave_table.h"
 #include "scene/scene.h"
 
 /* Run time of one stage: total, and the part in settling. */
@@ -43,7 +45,9 @@ typedef struct sb_summary {
     uint64_t inside, crossed;            /* particles whose centre lies within a solid at the end: all; those deeper
                                             than its boundary particles */
     int threads;
-    const sb_body_record *bodies; /* one per body of the model; NULL: none */
+    const sb_body_record *bodies;     /* one per body of the model; NULL: none */
+    const sb_absorption *absorptions; /* one per body of the model; NULL: none */
+    const sb_gauge_waves *waves;      /* one per gauge; NULL: none */
     size_t reflection_count;
     const sb_reflection_record *reflections;   /* since the start of each set */
     sb_energy first, last;                     /* energies at the start and at the end */

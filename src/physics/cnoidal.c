@@ -99,3 +99,24 @@ void sb_cnoidal_at(const sb_cnoidal *wave, double phase, double z, sb_wave_motio
                                .u_rate = -c * u_x,
                                .w_rate = c * minus_w_x};
 }
+
+/* With b the distance of the piston behind the crest, dX/dt = C eta/(d + eta) and db/dt = C - dX/dt give X = A(b)/d and
+   b + A(b)/d = C t, with A the integral of the elevation from the crest, H L/(2 K m) Z(2 K b/L). The left side grows
+   with b, and differs from b by at most A's largest value, H L/(2 K m). */
+double sb_cnoidal_piston(const sb_cnoidal *wave, double t, double *phase)
+{
+    const sb_elliptic *e = &wave->elliptic;
+    const double scale = wave->height / (2 * e->k * e->m * wave->depth); /* of A/(d L) */
+    const double at = remainder(t, wave->length / wave->celerity) * wave->celerity / wave->length;
+    double low = fmax(at - scale, -0.5), high = fmin(at + scale, 0.5);
+    for (int i = 0; i < 60 && high > low; i++) {
+        const double middle = 0.5 * (low + high);
+        if (middle + scale * sb_elliptic_zeta(e, 2 * e->k * middle) > at)
+            high = middle;
+        else
+            low = middle;
+    }
+    const double behind = 0.5 * (low + high);
+    if (phase) *phase = -behind;
+    return (at - behind) * wave->length;
+}

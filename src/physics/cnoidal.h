@@ -28,4 +28,8 @@ sb_status sb_cnoidal_of_period(double height, double period, double depth, doubl
    on average; u and w vary over the depth as irrotational flow requires to the order of the theory. */
 void sb_cnoidal_at(const sb_cnoidal *wave, double phase, double z, sb_wave_motion *motion);
 
+/* Displacement in m of a piston that moves with the mean velocity of the wave's water beside it, at t s after it was
+   beside a crest at displacement 0 [Goring 1978]. phase: NULL, or set to the phase at the piston. */
+double sb_cnoidal_piston(const sb_cnoidal *wave, double t, double *phase);
+
 #endif

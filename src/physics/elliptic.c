@@ -33,3 +33,13 @@ void sb_elliptic_at(const sb_elliptic *e, double u, double *sn, double *cn, doub
     *cn = cos(phi);
     *dn = sqrt(e->m1 + e->m * *cn * *cn);
 }
+
+double sb_elliptic_zeta(const sb_elliptic *e, double u)
+{
+    double phi = ldexp(e->a[e->steps] * u, e->steps), sum = 0;
+    for (int n = e->steps; n > 0; n--) {
+        sum += e->c[n] * sin(phi);
+        phi = 0.5 * (phi + asin(e->c[n] / e->a[n] * sin(phi)));
+    }
+    return sum;
+}

@@ -20,4 +20,7 @@ sb_elliptic sb_elliptic_of(double logit);
 /* Sets sn, cn and dn of u, |u| <= K(m). [Abramowitz and Stegun, 16.4] */
 void sb_elliptic_at(const sb_elliptic *e, double u, double *sn, double *cn, double *dn);
 
+/* Returns Jacobi's zeta function E(u) - u E/K, |u| <= K(m). [Abramowitz and Stegun, 17.6.10] */
+double sb_elliptic_zeta(const sb_elliptic *e, double u);
+
 #endif

@@ -1,6 +1,8 @@
 /* The table of paddle laws, and the motion of a paddle in scene time. */
 #include "physics/wavemaker.h"
 
+#include "base/memory.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +12,13 @@
     ROW(goring_rayleigh)                                                                                               \
     ROW(stroke)                                                                                                        \
     ROW(file)                                                                                                          \
-    ROW(gate)
+    ROW(gate)                                                                                                          \
+    ROW(regular)                                                                                                       \
+    ROW(irregular)                                                                                                     \
+    ROW(components)                                                                                                    \
+    ROW(focused)                                                                                                       \
+    ROW(signal)                                                                                                        \
+    ROW(absorber)
 
 #define DECLARE(name) extern const sb_wavemaker sb_wavemaker_##name;
 #define POINT(name) &sb_wavemaker_##name,
@@ -33,10 +41,10 @@ sb_status sb_wavemaker_check(const sb_wavemaker_parameters *parameters, sb_error
         const char *name, *unit;
         double value;
     } keys[] = {
-        {SB_WM_HEIGHT, "height", "m", parameters->height},
-        {SB_WM_DEPTH, "depth", "m", parameters->depth},
-        {SB_WM_STROKE, "stroke", "m", parameters->stroke},
-        {SB_WM_SPEED, "speed", "m/s", parameters->speed},
+        {SB_WM_HEIGHT, "height", "m", parameters->height}, {SB_WM_DEPTH, "depth", "m", parameters->depth},
+        {SB_WM_STROKE, "stroke", "m", parameters->stroke}, {SB_WM_SPEED, "speed", "m/s", parameters->speed},
+        {SB_WM_PERIOD, "period", "s", parameters->period}, {SB_WM_DISTANCE, "distance", "m", parameters->distance},
+        {SB_WM_FOCUS, "focus", "s", parameters->focus},
     };
     const char *law = parameters->kind->name;
     unsigned needs = parameters->kind->needs;
@@ -48,6 +56,18 @@ sb_status sb_wavemaker_check(const sb_wavemaker_parameters *parameters, sb_error
         return sb_fail(error, SB_BAD_INPUT, "wave maker %s: no file, expected a time-displacement table", law);
     if (!(parameters->start > -HUGE_VAL))
         return sb_fail(error, SB_BAD_INPUT, "wave maker %s: start is %g s, expected a number", law, parameters->start);
+    if (needs & SB_WM_TRAIN && !(parameters->lasts > 0))
+        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: lasts is %g s, expected more than 0", law,
+                       parameters->lasts);
+    if (needs & SB_WM_TRAIN && !(parameters->gravity > 0))
+        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: gravity is %g m/s^2, expected more than 0", law,
+                       parameters->gravity);
+    if (needs & SB_WM_SPECTRUM && !(parameters->components > 0))
+        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: components is %d, expected more than 0", law,
+                       parameters->components);
+    if (parameters->absorb && !(parameters->reach > 0))
+        return sb_fail(error, SB_BAD_INPUT, "wave maker %s: reach is %g m, expected more than 0", law,
+                       parameters->reach);
     if (parameters->after == SB_AFTER_RETURN && !(parameters->return_time > 0 && isfinite(parameters->return_time)))
         return sb_fail(error, SB_BAD_INPUT, "wave maker %s: return_time is %g s, expected more than 0", law,
                        parameters->return_time);
@@ -65,7 +85,7 @@ sb_status sb_paddle_create(const sb_wavemaker_parameters *parameters, sb_paddle 
     status = made.kind->create(parameters, &made.state, error);
     if (status != SB_OK) return status;
     made.duration = made.kind->duration(made.state);
-    made.stroke_end = made.kind->displacement(made.state, made.duration);
+    made.stroke_end = isfinite(made.duration) ? made.kind->displacement(made.state, made.duration) : 0;
     *paddle = made;
     return SB_OK;
 }
@@ -86,4 +106,23 @@ void sb_paddle_destroy(sb_paddle *paddle)
 {
     if (paddle->kind) paddle->kind->destroy(paddle->state);
     *paddle = (sb_paddle){0};
+}
+
+sb_status sb_paddle_fit_absorption(const sb_wavemaker_parameters *parameters, sb_paddle *paddle, double distance,
+                                   sb_absorbing_filter *filter, sb_error *error)
+{
+    const sb_wave_facts *facts = paddle->kind->facts(paddle->state);
+    const size_t most = facts->count + 1;
+    sb_band_part *band = sb_alloc(most, sizeof *band);
+    if (!band) return sb_fail_memory(error, "an absorbing paddle");
+    const size_t count = paddle->kind->band(paddle->state, band, most);
+    paddle->kind->place(paddle->state, distance);
+    *filter = sb_absorbing_filter_of(parameters->motion, band, count, facts->slow, parameters->depth,
+                                     parameters->gravity, distance);
+    sb_free(band);
+    if (filter->gain > 0 && isfinite(filter->gain)) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT,
+                   "absorb: its water is measured %g m ahead of the paddle, more than a quarter of its shortest waves, "
+                   "expected a finer resolution, longer waves, or absorb: false",
+                   distance);
 }

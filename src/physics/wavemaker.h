@@ -4,8 +4,13 @@
 #define SB_PHYSICS_WAVEMAKER_H
 
 #include "base/status.h"
+#include "physics/paddle_transfer.h"
+#include "physics/regular_wave.h"
+#include "physics/spectrum.h"
 
+#include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 typedef struct sb_wavemaker sb_wavemaker;
 
@@ -23,9 +28,48 @@ typedef struct sb_wavemaker_parameters {
     char *file;     /* absolute path of a time-displacement table */
     sb_after_stroke after;
     double return_time; /* s, duration of the slow return, when after is RETURN */
+    /* wave trains */
+    double period;        /* s, of regular waves; at the peak of a spectrum */
+    sb_wave_order theory; /* of regular waves */
+    sb_paddle_motion motion;
+    double ramp, lasts; /* s, from rest to the full motion, negative: by the law; end of the motion, or infinity */
+    sb_spectrum_kind spectrum;
+    double gamma;    /* peak enhancement of JONSWAP */
+    int components;  /* waves by which a spectrum is represented */
+    uint64_t seed;   /* of their phases and frequencies */
+    double distance; /* m ahead of the paddle: where waves focus, or a signal was measured */
+    double focus;    /* s after the start, when they focus */
+    bool absorb;     /* the paddle also takes waves that come back */
+    double reach;    /* m, the farthest that it moves from its law for that */
 } sb_wavemaker_parameters;
 
-enum { SB_WM_HEIGHT = 1, SB_WM_DEPTH = 2, SB_WM_STROKE = 4, SB_WM_SPEED = 8, SB_WM_FILE = 16 };
+enum {
+    SB_WM_HEIGHT = 1,
+    SB_WM_DEPTH = 2,
+    SB_WM_STROKE = 4,
+    SB_WM_SPEED = 8,
+    SB_WM_FILE = 16,
+    SB_WM_PERIOD = 32,
+    SB_WM_DISTANCE = 64,
+    SB_WM_FOCUS = 128,
+    SB_WM_REQUIRED = 255, /* the bits above: keys that are numbers > 0, or a file */
+    SB_WM_TRAIN = 256,    /* motion, ramp, lasts */
+    SB_WM_THEORY = 512,
+    SB_WM_SPECTRUM = 1024, /* spectrum, gamma, components */
+    SB_WM_SEED = 2048
+};
+
+/* What a wave train is, for the user. */
+typedef struct sb_wave_facts {
+    const char *theory;            /* static text */
+    const char *height_name;       /* "height", "significant height", ...: static text */
+    double height, period, depth;  /* m; s, at the peak of a spectrum; m */
+    double length, number, ursell; /* m; 1/m; H L^2/d^3 */
+    double travel;                 /* m, of the paddle */
+    double ramp;                   /* s */
+    double slow;                   /* 1/s, rate at which an absorbing paddle forgets levels and returns */
+    size_t count;                  /* parts of the sum; 0: a cnoidal wave */
+} sb_wave_facts;
 
 struct sb_wavemaker {
     const char *name, *summary, *reference;
@@ -40,6 +84,14 @@ struct sb_wavemaker {
     void (*destroy)(void *state);
     /* Returns a warning (static text) when the theory is not valid for the parameters, else NULL. May be NULL. */
     const char *(*warning)(const sb_wavemaker_parameters *parameters);
+    /* The following are NULL, except for wave trains (wave_train.h), whose duration may be infinite.
+       place sets the distance ahead of the paddle at which surface is asked for; surface is that of the waves, m above
+       the still level, t seconds after the start, the waves that stay near the paddle included. */
+    void (*place)(void *state, double distance);
+    double (*surface)(const void *state, double t);
+    /* Writes at most `capacity` frequencies of the waves, and returns their number. */
+    size_t (*band)(const void *state, sb_band_part *band, size_t capacity);
+    const sb_wave_facts *(*facts)(const void *state);
 };
 
 /* All laws; the last entry is NULL. */
@@ -63,5 +115,12 @@ sb_status sb_paddle_create(const sb_wavemaker_parameters *parameters, sb_paddle 
 /* Returns the displacement in m at scene time t. It is continuous, and its speed is continuous during the return. */
 double sb_paddle_displacement(const sb_paddle *paddle, double t);
 void sb_paddle_destroy(sb_paddle *paddle);
+
+/* Fits the filter of an absorbing paddle to its waves, for a surface that is measured `distance` ahead of its face, and
+   sets the place of its law. SB_BAD_INPUT if its waves are too short for that distance. */
+sb_status sb_paddle_fit_absorption(const sb_wavemaker_parameters *parameters, sb_paddle *paddle, double distance,
+                                   sb_absorbing_filter *filter, sb_error *error);
+/* Distance ahead of an absorbing paddle at which its water is measured, in spacings. */
+#define SB_ABSORB_DISTANCE 3
 
 #endif

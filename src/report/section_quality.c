@@ -130,7 +130,9 @@ enum {
     INTEGRATION,
     LEFT,
     IMBALANCE,
-    STRESS
+    STRESS,
+    SEA,
+    SPONGE
 };
 
 /* The energy ledger of docs/method.md, section 11. All parts are in per cent of the greatest kinetic energy. */
@@ -143,7 +145,7 @@ static void put_energy(FILE *out, const sb_report_run *run)
     double greatest = 0, ledger = 0;
     for (size_t row = 0; row < table->series[0].rows; row++)
         greatest = fmax(greatest, values[row * table->columns + KINETIC]);
-    for (int c = BODIES; c <= STRESS; c++)
+    for (int c = BODIES; c <= SPONGE && (size_t)c < table->columns; c++)
         if (c != IMBALANCE) ledger += last[c] - first[c];
     const double change = last[KINETIC] + last[POTENTIAL] - first[KINETIC] - first[POTENTIAL];
     const double percent = greatest > 0 ? 100 / greatest : 0;

@@ -7,6 +7,7 @@
 #include "base/vec.h"
 #include "physics/kernel.h"
 #include "physics/regular_wave.h"
+#include "physics/sponge.h"
 #include "physics/wave_theory.h"
 #include "physics/wavemaker.h"
 
@@ -229,6 +230,16 @@ typedef struct sb_wavemaker_use {
     sb_wavemaker_parameters law; /* kind, height, depth, stroke, ..., motion after the stroke */
 } sb_wavemaker_use;
 
+/* A zone in which water is slowed down. */
+typedef struct sb_sponge {
+    char name[SB_NAME_MAX];
+    int side;           /* SB_X_MIN to SB_Y_MAX: the strength grows towards it */
+    double end, length; /* m: coordinate at which the strength is reached; length in which it grows */
+    sb_sponge_profile profile;
+    double period, depth; /* s, m, of the waves */
+    double strength;      /* 1/s, at the end and behind it */
+} sb_sponge;
+
 typedef struct sb_gauge {
     char name[SB_NAME_MAX];
     double x, y;
@@ -275,6 +286,12 @@ typedef struct sb_map {
     double threshold; /* m; water has arrived when the depth at the start, or later its rise, is this */
 } sb_map;
 
+/* Heights and periods of the waves at all gauges. */
+typedef struct sb_wave_settings {
+    bool present;
+    double start, period; /* s: first row that is used; period of the harmonics, 0: none */
+} sb_wave_settings;
+
 typedef struct sb_measure {
     double interval; /* s between rows of forces, gauges, probes */
     size_t gauge_count;
@@ -288,6 +305,7 @@ typedef struct sb_measure {
     size_t reflection_count;
     sb_reflection_set *reflections;
     sb_map map;
+    sb_wave_settings waves;
 } sb_measure_settings;
 
 /* Heights on a grid of the depth-averaged model: terrain, or an uplift of the surface. */
@@ -381,6 +399,8 @@ typedef struct sb_scene {
     sb_body *bodies;
     size_t wavemaker_count;
     sb_wavemaker_use *wavemakers;
+    size_t sponge_count;
+    sb_sponge *sponges;
     sb_measure_settings measure;
     sb_render_settings render;
     sb_stream_settings stream;

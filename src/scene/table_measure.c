@@ -232,12 +232,32 @@ static sb_status finish_map(sb_reader *reader, const sb_yaml *map, void *item)
 
 static const sb_table map_table = {SB_KEY_ROWS(map_keys), .size = sizeof(sb_map), .finish = finish_map};
 
-enum { MAP = 1 };
+/* clang-format off */
+static const sb_key waves_keys[] = {
+    {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wave_settings, start), .unit = "s", SB_KEY_NOT_NEGATIVE,
+     .fallback = "0", .doc = "Time from which rows are used: when the waves have passed the gauges."},
+    {.name = "period", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wave_settings, period), .unit = "s", SB_KEY_NOT_NEGATIVE,
+     .fallback = "0", .doc = "Period of the first of five harmonics; 0: no harmonics."},
+};
+/* clang-format on */
+
+static sb_status finish_waves(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    (void)reader;
+    (void)map;
+    ((sb_wave_settings *)item)->present = true;
+    return SB_OK;
+}
+
+static const sb_table waves_table = {SB_KEY_ROWS(waves_keys), .size = sizeof(sb_wave_settings), .finish = finish_waves};
+
+enum { MAP = 1, WAVES = 2 };
 
 static unsigned measure_variant(const void *item, const sb_yaml *map)
 {
     bool present = map ? sb_yaml_child(map, "map") != NULL : ((const sb_measure_settings *)item)->map.present;
-    return present ? MAP : 0;
+    bool waves = map ? sb_yaml_child(map, "waves") != NULL : ((const sb_measure_settings *)item)->waves.present;
+    return (present ? MAP : 0) | (waves ? WAVES : 0);
 }
 
 /* clang-format off */
@@ -268,6 +288,10 @@ static const sb_key measure_keys[] = {
      .applies = MAP, .only = "maps", .derived = "no maps",
      .doc = "Maps of greatest depth, speed, momentum flux and of arrival time on a horizontal "
             "grid; `map: {}` uses all defaults."},
+    {.name = "waves", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_measure_settings, waves), .table = &waves_table,
+     .flags = SB_KEY_FREE, .applies = WAVES, .only = "waves at gauges", .derived = "none",
+     .doc = "Heights and periods of the waves at all gauges by zero crossings, at the end of the run; `waves: {}` uses "
+            "all rows."},
 };
 /* clang-format on */
 

@@ -5,6 +5,9 @@
 
 static const char *const start_names[] = {"command", NULL};
 static const char *const after_names[] = {"stay", "return", NULL};
+static const char *const lasts_names[] = {"forever", NULL};
+static const char *const theory_names[] = {"auto", "linear", "second-order", "cnoidal", NULL};
+static const char *const spectrum_names[] = {"jonswap", "pierson-moskowitz", NULL};
 
 enum { RETURNS = 1 << 16 };
 
@@ -36,7 +39,8 @@ static const sb_key keys[] = {
     {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.start), .unit = "s",
      SB_KEY_NOT_NEGATIVE, .words = start_names, .fallback = "0",
      .doc = "Time at which the motion begins; `command`: when the command `trigger` is given."},
-    LAW_NUMBER(height, "m", SB_WM_HEIGHT, "laws that need a wave height", "Wave height H."),
+    LAW_NUMBER(height, "m", SB_WM_HEIGHT, "laws that need a wave height",
+           "Wave height H, trough to crest; the significant height of `irregular`, twice the crest of `focused`."),
     LAW_NUMBER(depth, "m", SB_WM_DEPTH, "laws that need a depth",
            "Still-water depth at the paddle."),
     LAW_NUMBER(stroke, "m", SB_WM_STROKE, "laws that need a stroke",
@@ -44,7 +48,38 @@ static const sb_key keys[] = {
     LAW_NUMBER(speed, "m/s", SB_WM_SPEED, "laws that need a speed", "Top speed of the stroke."),
     {.name = "file", .type = SB_KEY_FILE, SB_KEY_AT(sb_wavemaker_use, law.file),
      .flags = SB_KEY_REQUIRED, .applies = SB_WM_FILE, .only = "laws that need a file",
-     .doc = "Table of times and displacements."},
+     .doc = "Table of times and displacements; of waves for `components`; of times and surfaces for `signal`."},
+    LAW_NUMBER(period, "s", SB_WM_PERIOD, "laws that need a period", "Wave period; of a spectrum, that of its peak."),
+    LAW_NUMBER(distance, "m", SB_WM_DISTANCE, "focused and signal",
+           "Distance ahead of the paddle at which the waves focus, or have the surface of the file."),
+    LAW_NUMBER(focus, "s", SB_WM_FOCUS, "focused", "Time after `start` at which the waves focus."),
+    {.name = "theory", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_wavemaker_use, law.theory), .words = theory_names,
+     .applies = SB_WM_THEORY, .only = "regular waves", .fallback = "auto",
+     .doc = "Theory of the paddle; `auto`: `second-order` where H L^2/d^3 < 26.3, otherwise `cnoidal`."},
+    {.name = "spectrum", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_wavemaker_use, law.spectrum), .words = spectrum_names,
+     .applies = SB_WM_SPECTRUM, .only = "irregular and focused", .fallback = "jonswap", .doc = "Form of the spectrum."},
+    {.name = "gamma", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.gamma), .min = 1, .max = 20,
+     .applies = SB_WM_SPECTRUM, .only = "irregular and focused", .fallback = "3.3",
+     .doc = "Peak enhancement of `jonswap`."},
+    {.name = "components", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_wavemaker_use, law.components), .min = 1, .max = 10000,
+     .applies = SB_WM_SPECTRUM, .only = "irregular and focused", .fallback = "200",
+     .doc = "Number of linear waves, from 0.5 to 3 times the peak's frequency, by which the spectrum is represented."},
+    {.name = "seed", .type = SB_KEY_SEED, SB_KEY_AT(sb_wavemaker_use, law.seed), .max = 0x1p64,
+     .applies = SB_WM_SEED, .only = "irregular", .fallback = "1",
+     .doc = "Seed of the phases, and of the frequencies within their bands."},
+    {.name = "ramp", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.ramp), .unit = "s", SB_KEY_NOT_NEGATIVE,
+     .applies = SB_WM_TRAIN, .only = "wave trains", .derived = "two periods; 0 for `signal`",
+     .doc = "Time in which the motion grows from rest, and in which it ends."},
+    {.name = "lasts", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.lasts), .unit = "s",
+     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE, .words = lasts_names,
+     .applies = SB_WM_TRAIN, .only = "wave trains", .fallback = "forever",
+     .doc = "Time after `start` at which the motion ends; that of `signal` ends with its file at the latest."},
+    {.name = "absorb", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_wavemaker_use, law.absorb),
+     .applies = SB_WM_TRAIN, .only = "wave trains", .derived = "false; true for `absorber`",
+     .doc = "Whether the paddle also moves so that waves which come back are not reflected."},
+    {.name = "reach", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.reach), .unit = "m", SB_KEY_POSITIVE,
+     .applies = SB_WM_TRAIN, .only = "wave trains", .derived = "half of the depth",
+     .doc = "Farthest that an absorbing paddle moves from its law to absorb."},
     {.name = "after", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_wavemaker_use, law.after),
      .words = after_names, .fallback = "stay",
      .doc = "Motion after the stroke: `stay` at its end, or `return` to the start."},
@@ -86,16 +121,26 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     sb_status status = check_direction(reader, map, use);
     if (status != SB_OK) return status;
     use->law.gravity = scene->fluid.gravity;
+    if (use->law.kind->needs & SB_WM_TRAIN) {
+        if (!sb_yaml_child(map, "ramp")) use->law.ramp = -1;
+        if (!sb_yaml_child(map, "absorb")) use->law.absorb = strcmp(use->law.kind->name, "absorber") == 0;
+        if (!sb_yaml_child(map, "reach")) use->law.reach = 0.5 * use->law.depth;
+    }
     sb_paddle paddle = {0};
     sb_error why = {0};
+    sb_absorbing_filter filter;
     status = sb_paddle_create(&use->law, &paddle, &why);
-    if (status == SB_OK)
+    if (status == SB_OK && use->law.absorb) {
+        status = sb_paddle_fit_absorption(&use->law, &paddle, SB_ABSORB_DISTANCE * scene->resolution, &filter, &why);
+        if (status != SB_OK) sb_paddle_destroy(&paddle);
+    }
+    if (status == SB_OK) {
+        if (use->law.kind->facts) use->law.ramp = use->law.kind->facts(paddle.state)->ramp;
         sb_paddle_destroy(&paddle);
-    else if (status == SB_BAD_INPUT)
-        return sb_reader_fail(reader, map, NULL, "%s", why.text);
-    else
-        return sb_fail(reader->error, status, "%s", why.text);
-    return SB_OK;
+        return SB_OK;
+    }
+    if (status == SB_BAD_INPUT) return sb_reader_fail(reader, map, NULL, "%s", why.text);
+    return sb_fail(reader->error, status, "%s", why.text);
 }
 
 const sb_table sb_wavemaker_table = {SB_KEY_ROWS(keys), .size = sizeof(sb_wavemaker_use), .variant = variant,

@@ -49,6 +49,7 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
         .images = n->walls == SB_WALLS_IMAGES,
         .sea = sb_scene_sea_side(scene, 0) || sb_scene_sea_side(scene, 1) || sb_scene_sea_side(scene, 2) ||
                sb_scene_sea_side(scene, 3),
+        .sponge = scene->sponge_count > 0,
         .settling = settling,
         .start_velocity = settling && starts_in_motion(model),
         .direction = solver->needs_direction,

@@ -76,6 +76,8 @@ sb_status sb_sim_step(sb_sim *sim, sb_error *error);
 sb_status sb_sim_trigger(sb_sim *sim, size_t wavemaker, sb_error *error);
 
 const sb_step_report *sb_sim_report(const sb_sim *sim);
+/* body: index into the model's bodies. All 0 if it absorbs no waves. */
+sb_absorption sb_sim_absorption(const sb_sim *sim, size_t body);
 /* body: index into the model's bodies. */
 const sb_body_impulse *sb_sim_impulse(const sb_sim *sim, size_t body);
 sb_vec3 sb_sim_body_displacement(const sb_sim *sim, size_t body);

@@ -46,12 +46,31 @@ static sb_scene make_scene(void)
 static void summary_has_the_documented_keys(void **state)
 {
     (void)state;
-    const char *const keys[] = {
-        "wall_s",          "simulated_s",        "steps",          "fluid_particles", "boundary_particles",
-        "mean_iterations", "bytes_per_particle", "lost_particles", "bodies",          "name",
-        "peak_N",          "peak_time_s",        "impulse_Ns",     "version",         "preset",
-        "stages",          "energy_end",         "energy_work",    "contact_J",       "packing_stress_J",
-        "sea_J",           "processor_seconds",  "wall_setup_s",   "wall_settling_s"};
+    const char *const keys[] = {"wall_s",
+                                "simulated_s",
+                                "steps",
+                                "fluid_particles",
+                                "boundary_particles",
+                                "mean_iterations",
+                                "bytes_per_particle",
+                                "lost_particles",
+                                "bodies",
+                                "name",
+                                "peak_N",
+                                "peak_time_s",
+                                "impulse_Ns",
+                                "version",
+                                "preset",
+                                "stages",
+                                "energy_end",
+                                "energy_work",
+                                "contact_J",
+                                "packing_stress_J",
+                                "sea_J",
+                                "sponge_J",
+                                "processor_seconds",
+                                "wall_setup_s",
+                                "wall_settling_s"};
     sb_scene scene = make_scene();
     const sb_summary summary = {
         .scene = &scene,

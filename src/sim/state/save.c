@@ -9,6 +9,7 @@
 #include "sim/search/sort.h"
 #include "sim/simulation.h"
 #include "sim/step/settle.h"
+#include "sim/walls/absorber.h"
 #include "sim/walls/walls.h"
 
 #include <math.h>
@@ -104,6 +105,7 @@ void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
         sb_put_vector(out, sim->walls.moving[m].velocity);
         if (sim->walls.moving[m].commanded) sb_put_real(out, sim->walls.moving[m].paddle.start);
     }
+    sb_absorbers_save(sim, out);
     sb_put_count(out, sb_sim_hash(sim));
 }
 
@@ -193,6 +195,7 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     sb_strip_load(sim, in);
     check_particles(sim, sim->state.n, in);
     take_moving(sim, in);
+    sb_absorbers_load(sim, in);
     const uint64_t expected = sb_take_count(in, UINT64_MAX), hash = sb_sim_hash(sim);
     if (in->error.status == SB_OK && hash != expected)
         sb_archive_refuse(in, "state hash is %016llx, expected %016llx", (unsigned long long)hash,

@@ -99,6 +99,8 @@ typedef struct sb_work {
     double *body_force;   /* per body SB_FORCE_VALUES values, of all domains */
     double *stress_force; /* the same by the stress correction, with images; else 0 */
     sb_ledger_sums sums;
+    double sponge_work;  /* per unit of mass, by sponges */
+    sb_vec3 sponge_gain; /* kg m/s, momentum by sponges */
     sb_vec3 stress_gain; /* kg m/s, momentum from the stress correction: only round-off */
     sb_solve solve;
     bool lists_current; /* the lists and densities belong to the present particles */

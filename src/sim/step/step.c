@@ -5,6 +5,7 @@
 #include "sim/sea/strip.h"
 #include "sim/step/stages.h"
 #include "sim/terms/density_correction.h"
+#include "sim/terms/sponge.h"
 #include "sim/terms/stress_correction.h"
 #include "sim/terms/turbulence.h"
 #include "sim/walls/pushes.h"
@@ -39,6 +40,8 @@ static const stage stages[] = {
     {"turbulence", SB_PHASE_TURBULENCE, sb_stage_turbulence, SB_NEEDS(turbulence)},
     /* v* = v + dt (g + viscosity + friction) */
     {"forces", SB_PHASE_FORCES, sb_stage_forces, SB_ALWAYS},
+    /* slows water down */
+    {"sponge", SB_PHASES, sb_stage_sponge, SB_NEEDS(sponge)},
     /* their velocity and pressure */
     {"hold", SB_PHASES, sb_stage_hold, SB_NEEDS(sea)},
     /* b = beta (rho_0 - rho) - dt div v* */
@@ -51,6 +54,8 @@ static const stage stages[] = {
     {"impulse", SB_PHASE_IMPULSE, sb_stage_impulse, SB_ALWAYS},
     /* what has held them */
     {"book", SB_PHASES, sb_stage_book, SB_NEEDS(sea)},
+    /* what sponges have taken */
+    {"drained", SB_PHASES, sb_stage_drained, SB_NEEDS(sponge)},
     /* x at t + dt */
     {"move", SB_PHASE_MOVE, sb_stage_move, SB_ALWAYS},
 };

@@ -1,6 +1,7 @@
 /* The choice of the time step [S16, eqs. 10-12] (docs/method.md, section 8). */
 #include "sim/simulation.h"
 #include "sim/step/stages.h"
+#include "sim/walls/absorber.h"
 
 #include <math.h>
 
@@ -20,7 +21,8 @@ static double top_speed(const sb_sim *sim)
         const sb_paddle *paddle = &sim->walls.moving[m].paddle;
         double moved =
             sb_paddle_displacement(paddle, sim->state.time + probe) - sb_paddle_displacement(paddle, sim->state.time);
-        speed = fmax(speed, fabs(moved) / probe);
+        const struct sb_absorber *absorber = sim->walls.moving[m].absorber;
+        speed = fmax(speed, fabs(moved) / probe + (absorber ? fabs(absorber->speed) : 0));
     }
     return speed;
 }

@@ -21,10 +21,13 @@ typedef struct sb_wall_set {
 
 enum { SB_STATIC, SB_MOVING, SB_WALL_SETS };
 
+struct sb_absorber; /* sim/walls/absorber.h */
+
 /* A moving body: its law of motion and its present displacement. */
 typedef struct sb_moving_body {
     sb_paddle paddle;
-    bool commanded; /* its start waits for a command, or one gave it: it is saved */
+    struct sb_absorber *absorber; /* NULL: it only follows its law */
+    bool commanded;               /* its start waits for a command, or one gave it: it is saved */
     sb_vec3 direction;
     double displacement, next_displacement; /* m, at t and t + dt */
     sb_vec3 velocity;                       /* m/s, between them */

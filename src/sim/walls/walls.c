@@ -6,6 +6,7 @@
 #include "sim/search/sort.h"
 #include "sim/simulation.h"
 #include "sim/step/stages.h"
+#include "sim/walls/absorber.h"
 #include "sim/walls/mirrors.h"
 
 #include <math.h>
@@ -152,6 +153,8 @@ sb_status sb_paddles_create(sb_sim *sim, sb_error *error)
         sb_status status = sb_paddle_create(&use->law, &moving->paddle, error);
         if (status != SB_OK) return status;
         sim->walls.moving_of_body[b] = (uint32_t)sim->walls.moving_count++;
+        status = sb_absorber_create(sim, b, moving, error);
+        if (status != SB_OK) return status;
     }
     return SB_OK;
 }
@@ -197,7 +200,10 @@ void sb_walls_destroy(sb_sim *sim)
         sb_free(sim->walls.set[s].near);
         sb_cells_free(&sim->walls.set[s].cells);
     }
-    for (size_t m = 0; m < sim->walls.moving_count; m++) sb_paddle_destroy(&sim->walls.moving[m].paddle);
+    for (size_t m = 0; m < sim->walls.moving_count; m++) {
+        sb_paddle_destroy(&sim->walls.moving[m].paddle);
+        sb_free(sim->walls.moving[m].absorber);
+    }
     sb_free(sim->walls.moving);
     sb_free(sim->walls.moving_of_body);
     sb_mirrors_destroy(sim);
@@ -237,8 +243,10 @@ sb_status sb_stage_walls(sb_sim *sim, sb_error *error)
         sb_moving_body *moving = &sim->walls.moving[m];
         double here = sim->policy->runs ? sb_paddle_displacement(&moving->paddle, time) : 0;
         double there = sim->policy->runs ? sb_paddle_displacement(&moving->paddle, time + dt) : 0;
+        if (moving->absorber) here += moving->absorber->offset;
         moved |= here != moving->displacement;
         moving->displacement = here;
+        if (moving->absorber && sim->policy->runs) there += sb_absorber_advance(sim, moving);
         moving->next_displacement = there;
         moving->velocity = sb_scale(moving->direction, (there - here) / dt);
     }

@@ -1,0 +1,128 @@
+#include "app/check_waves.h"
+
+#include "physics/dispersion.h"
+
+#include <math.h>
+#include <stdio.h>
+
+typedef void visit_train(void *context, const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle);
+
+/* Calls visit for each wave maker that makes a wave train. The scene has been read, so that all of them can be made. */
+static size_t visit_trains(const sb_scene *scene, visit_train *visit, void *context)
+{
+    size_t count = 0;
+    for (size_t w = 0; w < scene->wavemaker_count; w++) {
+        const sb_wavemaker_use *maker = &scene->wavemakers[w];
+        sb_paddle paddle = {0};
+        if (!maker->law.kind->facts || sb_paddle_create(&maker->law, &paddle, NULL) != SB_OK) continue;
+        if (visit) visit(context, scene, maker, &paddle);
+        sb_paddle_destroy(&paddle);
+        count++;
+    }
+    return count;
+}
+
+/* Reflection by linear theory at the period of the waves, by an absorbing paddle; NaN: it does not absorb. */
+static double paddle_reflection(const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
+{
+    sb_paddle own = *paddle;
+    sb_absorbing_filter filter;
+    const double distance = SB_ABSORB_DISTANCE * scene->resolution;
+    if (!maker->law.absorb || sb_paddle_fit_absorption(&maker->law, &own, distance, &filter, NULL) != SB_OK)
+        return (double)NAN;
+    return sb_absorbing_reflection(&filter, maker->law.motion, 2 * M_PI / paddle->kind->facts(paddle->state)->period,
+                                   maker->law.depth, scene->fluid.gravity, distance);
+}
+
+static void print_absorption(const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
+{
+    const double reflection = paddle_reflection(scene, maker, paddle);
+    if (isnan(reflection)) return;
+    printf("    absorbs within %.3g m of its law; predicted reflection at %.4g s %.2g %%\n", maker->law.reach,
+           paddle->kind->facts(paddle->state)->period, 100 * reflection);
+}
+
+static void print_train(void *context, const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
+{
+    (void)context;
+    const sb_wave_facts *f = paddle->kind->facts(paddle->state);
+    const double spacing = scene->resolution;
+    if (!(f->height > 0)) {
+        printf("  absorber %s: waves of %.4g s on %g m, wavelength %.4g m\n", maker->name, f->period, f->depth,
+               f->length);
+        print_absorption(scene, maker, paddle);
+        return;
+    }
+    printf("  waves of %s: %s, %s\n"
+           "    %s %.4g m, period %.4g s%s, depth %g m, wavelength %.4g m\n"
+           "    kd %.3g, steepness H/L %.3g, Ursell number H L^2/d^3 %.3g\n"
+           "    %.3g particles per height, %.3g per wavelength; travel of the paddle %.3g m\n",
+           maker->name, maker->law.kind->name, f->theory, f->height_name, f->height, f->period,
+           f->count > 2 ? " at the peak" : "", f->depth, f->length, f->number * f->depth, f->height / f->length,
+           f->ursell, f->height / spacing, f->length / spacing, f->travel);
+    print_absorption(scene, maker, paddle);
+}
+
+/* Reflected over incident amplitude by linear theory. */
+static double reflection_of(const sb_scene *scene, const sb_sponge *sponge)
+{
+    return sb_sponge_reflection(sponge->profile, sponge->strength, 2 * M_PI / sponge->period, sponge->depth,
+                                scene->fluid.gravity, sponge->length);
+}
+
+static double wavelength_of(const sb_scene *scene, const sb_sponge *sponge)
+{
+    return 2 * M_PI / sb_wave_number(sponge->period, sponge->depth, scene->fluid.gravity);
+}
+
+void sb_check_waves_text(const sb_scene *scene)
+{
+    visit_trains(scene, print_train, NULL);
+    for (size_t s = 0; s < scene->sponge_count; s++) {
+        const sb_sponge *sponge = &scene->sponges[s];
+        printf("  sponge %s: %.3g wavelengths of %.4g m, strength %.3g 1/s; predicted reflection %.2g %%\n",
+               sponge->name, sponge->length / wavelength_of(scene, sponge), wavelength_of(scene, sponge),
+               sponge->strength, 100 * reflection_of(scene, sponge));
+    }
+}
+
+static void put_train(void *context, const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
+{
+    sb_json *json = context;
+    const sb_wave_facts *f = paddle->kind->facts(paddle->state);
+    sb_json_open(json, NULL, '{');
+    sb_json_text(json, "wavemaker", maker->name);
+    sb_json_text(json, "kind", maker->law.kind->name);
+    sb_json_text(json, "theory", f->theory);
+    sb_json_number(json, "height_m", f->height);
+    sb_json_number(json, "period_s", f->period);
+    sb_json_number(json, "wavelength_m", f->length);
+    sb_json_number(json, "kd", f->number * f->depth);
+    sb_json_number(json, "steepness", f->height / f->length);
+    sb_json_number(json, "ursell", f->ursell);
+    sb_json_number(json, "particles_per_height", f->height / scene->resolution);
+    sb_json_number(json, "particles_per_wavelength", f->length / scene->resolution);
+    sb_json_number(json, "travel_m", f->travel);
+    if (maker->law.absorb) sb_json_number(json, "predicted_reflection", paddle_reflection(scene, maker, paddle));
+    sb_json_close(json);
+}
+
+void sb_check_waves_json(const sb_scene *scene, sb_json *json)
+{
+    if (visit_trains(scene, NULL, NULL) > 0) {
+        sb_json_open(json, "waves", '[');
+        visit_trains(scene, put_train, json);
+        sb_json_close(json);
+    }
+    if (scene->sponge_count == 0) return;
+    sb_json_open(json, "sponges", '[');
+    for (size_t s = 0; s < scene->sponge_count; s++) {
+        sb_json_open(json, NULL, '{');
+        sb_json_text(json, "name", scene->sponges[s].name);
+        sb_json_number(json, "wavelength_m", wavelength_of(scene, &scene->sponges[s]));
+        sb_json_number(json, "strength_per_s", scene->sponges[s].strength);
+        sb_json_number(json, "predicted_reflection", reflection_of(scene, &scene->sponges[s]));
+        sb_json_close(json);
+    }
+    sb_json_close(json);
+}

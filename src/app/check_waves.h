@@ -1,0 +1,14 @@
+/* What the wave makers of a scene make, and what its sponges leave, for `check`. */
+#ifndef SB_APP_CHECK_WAVES_H
+#define SB_APP_CHECK_WAVES_H
+
+#include "output/json.h"
+#include "scene/scene.h"
+
+/* Prints the wave trains: wavelength, kd, Ursell number, steepness, particles per height and length, travel; and the
+   reflection that is predicted for each sponge. */
+void sb_check_waves_text(const sb_scene *scene);
+/* The same as lists "waves" and "sponges" of the open object; none where there is no item. */
+void sb_check_waves_json(const sb_scene *scene, sb_json *json);
+
+#endif

@@ -1,0 +1,65 @@
+#include "physics/sponge.h"
+
+#include "physics/dispersion.h"
+
+#include <complex.h>
+#include <math.h>
+
+double sb_sponge_share(sb_sponge_profile profile, double along)
+{
+    const double s = fmin(fmax(along, 0), 1);
+    return profile == SB_SPONGE_LINEAR ? s : profile == SB_SPONGE_QUADRATIC ? s * s : s * s * s;
+}
+
+/* The root of k tanh kd = target next to `near`, by Newton's method. */
+static double complex number_near(double complex near, double complex target, double depth)
+{
+    double complex k = near;
+    for (int i = 0; i < 50; i++) {
+        const double complex t = ctanh(k * depth), slope = t + k * depth * (1 - t * t);
+        const double complex step = (k * t - target) / slope;
+        k -= step;
+        if (cabs(step) < 1e-13 * cabs(k)) break;
+    }
+    return k;
+}
+
+/* The flux is as eta_x tanh(kd)/(k (1 + i strength/omega)), which is as eta_x/k^2. From the wall, where it is 0, to the
+   front. Time is as exp(-i omega t). */
+double sb_sponge_reflection(sb_sponge_profile profile, double strength, double omega, double depth, double gravity,
+                            double length)
+{
+    enum { SLICES = 1000 };
+    const double width = length / SLICES, front = sb_wave_number(2 * M_PI / omega, depth, gravity);
+    double complex wave[SLICES], k = front, flux = 0;
+    for (int s = 0; s < SLICES; s++) {
+        const double share = sb_sponge_share(profile, (s + 0.5) / SLICES);
+        k = number_near(k, omega * omega / gravity * CMPLX(1, strength * share / omega), depth);
+        wave[s] = k;
+    }
+    for (int s = SLICES - 1; s >= 0; s--) {
+        const double complex slope = flux * wave[s] * wave[s], c = ccos(wave[s] * width), i = csin(wave[s] * width);
+        flux = (wave[s] * i + slope * c) / (c - slope / wave[s] * i) / (wave[s] * wave[s]);
+    }
+    const double complex ahead = CMPLX(0, 1 / front);
+    return cabs((ahead - flux) / (ahead + flux));
+}
+
+double sb_sponge_best(sb_sponge_profile profile, double omega, double depth, double gravity, double length)
+{
+    double best = omega, least = 2;
+    for (double strength = 0.05 * omega; strength < 20 * omega; strength *= 1.1) {
+        const double r = sb_sponge_reflection(profile, strength, omega, depth, gravity, length);
+        if (r < least) best = strength;
+        least = fmin(r, least);
+    }
+    for (double factor = 1.05; factor > 1.005; factor = sqrt(factor)) {
+        const double tried[] = {best * factor, best / factor};
+        for (int i = 0; i < 2; i++) {
+            const double r = sb_sponge_reflection(profile, tried[i], omega, depth, gravity, length);
+            if (r < least) best = tried[i];
+            least = fmin(r, least);
+        }
+    }
+    return best;
+}

@@ -1,0 +1,21 @@
+/* Heights and periods of the waves in a series of surface elevations. */
+#ifndef SB_PHYSICS_WAVE_HEIGHTS_H
+#define SB_PHYSICS_WAVE_HEIGHTS_H
+
+#include "base/status.h"
+
+#include <stddef.h>
+
+/* Of waves between upward crossings of the series' mean. NaN where there are none. */
+typedef struct sb_wave_heights {
+    size_t count;
+    double level;                        /* m, mean of the series */
+    double mean, significant, highest;   /* m: of all heights, of the highest third, of the highest wave */
+    double period;                       /* s, mean */
+    double spectral;                     /* m, four standard deviations of the series */
+} sb_wave_heights;
+
+/* n elevations z in m at increasing times t in s. Crossings are interpolated linearly. Fails only without memory. */
+sb_status sb_wave_heights_of(const double *t, const double *z, size_t n, sb_wave_heights *heights, sb_error *error);
+
+#endif

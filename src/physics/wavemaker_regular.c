@@ -1,0 +1,88 @@
+/* Regular waves: a paddle by linear theory, a piston by second-order theory [Madsen 1971], and a piston that follows
+   the water of a cnoidal wave [Goring 1978]. */
+#include "physics/regular_wave.h"
+#include "physics/wave_train.h"
+
+#include <math.h>
+
+static const char *const theory_names[] = {
+    [SB_WAVE_LINEAR] = "linear", [SB_WAVE_STOKES2] = "second-order", [SB_WAVE_CNOIDAL] = "cnoidal"};
+
+static sb_status find_wave(const sb_wavemaker_parameters *p, sb_regular_wave *wave, sb_error *error)
+{
+    const bool flap = p->motion == SB_PADDLE_FLAP;
+    if (flap && p->theory != SB_WAVE_AUTO && p->theory != SB_WAVE_LINEAR)
+        return sb_fail(error, SB_BAD_INPUT,
+                       "theory: %s waves are made by a piston, expected linear or auto for a flap, or motion: piston",
+                       theory_names[p->theory]);
+    return sb_regular_wave_create(flap ? SB_WAVE_LINEAR : p->theory, p->height, p->period, p->depth, p->gravity, wave,
+                                  error);
+}
+
+static sb_status create(const sb_wavemaker_parameters *parameters, void **state, sb_error *error)
+{
+    sb_regular_wave wave;
+    sb_status status = find_wave(parameters, &wave, error);
+    if (status != SB_OK) return status;
+    const size_t parts = wave.order == SB_WAVE_CNOIDAL ? 0 : wave.order == SB_WAVE_STOKES2 ? 2 : 1;
+    sb_wave_train *train = sb_wave_train_create(parameters, parts);
+    if (!train) return sb_fail_memory(error, "a wave maker");
+    const double omega = 2 * M_PI / wave.period;
+    if (parts > 0) sb_wave_train_set(train, 0, 0.5 * wave.height, omega, 0);
+    if (parts > 1)
+        train->part[1] = (sb_train_part){.omega = 2 * omega,
+                                         .stroke = sb_paddle_second(wave.height, wave.number, wave.depth),
+                                         .amplitude = wave.second,
+                                         .number = 2 * wave.number,
+                                         .bound = true};
+    train->is_cnoidal = wave.order == SB_WAVE_CNOIDAL;
+    train->cnoidal = wave.cnoidal;
+    train->facts = (sb_wave_facts){.theory = theory_names[wave.order],
+                                   .height_name = "height",
+                                   .height = wave.height,
+                                   .period = wave.period,
+                                   .length = wave.length};
+    sb_wave_train_complete(train);
+    *state = train;
+    return SB_OK;
+}
+
+static const char *warning(const sb_wavemaker_parameters *parameters)
+{
+    sb_regular_wave wave;
+    if (find_wave(parameters, &wave, NULL) != SB_OK || wave.order != SB_WAVE_LINEAR) return NULL;
+    return wave.ursell >= SB_URSELL_LIMIT ? "linear theory, but H L^2/d^3 is above 26.3: free waves of twice the "
+                                            "frequency will come with the waves; theory: auto makes cnoidal waves"
+                                          : NULL;
+}
+
+const sb_wavemaker sb_wavemaker_regular = {
+    .name = "regular",
+    .summary = "piston for regular waves: linear, second order, or cnoidal",
+    .reference = "Biesel 1951; Madsen 1971; Goring 1978",
+    .needs = SB_WM_HEIGHT | SB_WM_DEPTH | SB_WM_PERIOD | SB_WM_THEORY | SB_WM_TRAIN,
+    .create = create,
+    .warning = warning,
+    SB_WAVE_TRAIN_LAW,
+};
+
+/* A paddle at rest that only absorbs. */
+static sb_status create_absorber(const sb_wavemaker_parameters *parameters, void **state, sb_error *error)
+{
+    if (!parameters->absorb) return sb_fail(error, SB_BAD_INPUT, "absorb: false, expected true for an absorber");
+    sb_wave_train *train = sb_wave_train_create(parameters, 0);
+    if (!train) return sb_fail_memory(error, "a wave maker");
+    train->facts = (sb_wave_facts){.theory = "at rest", .height_name = "height", .period = parameters->period};
+    sb_wave_train_complete(train);
+    *state = train;
+    return SB_OK;
+}
+
+const sb_wavemaker sb_wavemaker_absorber = {
+    .name = "absorber",
+    .summary = "piston at rest that absorbs the waves that reach it",
+    .reference = "Biesel 1951; docs/wave-basin.md",
+    .needs = SB_WM_DEPTH | SB_WM_PERIOD | SB_WM_TRAIN,
+    .create = create_absorber,
+    SB_WAVE_TRAIN_LAW,
+};

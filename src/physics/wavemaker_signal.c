@@ -1,0 +1,161 @@
+/* Waves by a table: a list of linear waves, or the surface that a gauge has measured. */
+#include "base/memory.h"
+#include "physics/number_rows.h"
+#include "physics/wave_train.h"
+
+#include <math.h>
+
+static sb_status check_wave(const sb_wavemaker_parameters *p, size_t row, const double v[3], sb_error *error)
+{
+    sb_regular_wave wave;
+    sb_error why = {0};
+    if (!(v[0] >= 0 && v[1] > 0))
+        return sb_fail(error, SB_BAD_INPUT,
+                       "%.500s: wave %zu has the amplitude %g m and the period %g s, expected >= 0 "
+                       "and > 0",
+                       p->file, row + 1, v[0], v[1]);
+    if (v[0] == 0 || sb_regular_wave_create(SB_WAVE_LINEAR, 2 * v[0], v[1], p->depth, p->gravity, &wave, &why) == SB_OK)
+        return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT, "%.500s: wave %zu: %.300s", p->file, row + 1, why.text);
+}
+
+static sb_status create_components(const sb_wavemaker_parameters *p, void **state, sb_error *error)
+{
+    double *values = NULL, square = 0, highest = 0;
+    size_t rows = 0;
+    sb_status status =
+        sb_number_rows_read(p->file, 3, "amplitude (m) period (s) phase (degrees)", &values, &rows, error);
+    if (status != SB_OK) return status;
+    for (size_t i = 0; i < rows && status == SB_OK; i++) status = check_wave(p, i, values + 3 * i, error);
+    sb_wave_train *train = status == SB_OK ? sb_wave_train_create(p, rows) : NULL;
+    if (status == SB_OK && !train) status = sb_fail_memory(error, "a wave maker");
+    for (size_t i = 0; train && i < rows; i++) {
+        const double *v = values + 3 * i;
+        sb_wave_train_set(train, i, v[0], 2 * M_PI / v[1], v[2] * M_PI / 180);
+        square += v[0] * v[0];
+        if (v[0] >= highest) train->facts.period = v[1];
+        highest = fmax(highest, v[0]);
+    }
+    sb_free(values);
+    if (status == SB_OK && !(square > 0))
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s: all amplitudes are 0, expected a wave", p->file);
+    if (status != SB_OK) {
+        sb_wave_train_destroy(train);
+        return status;
+    }
+    train->facts.theory = "linear sum";
+    train->facts.height_name = "significant height";
+    train->facts.height = sqrt(8 * square);
+    sb_wave_train_complete(train);
+    *state = train;
+    return SB_OK;
+}
+
+/* Rows "t eta" at equal steps. */
+typedef struct series {
+    double *values; /* 2 per row */
+    size_t rows;
+    double step; /* s */
+} series;
+
+enum { LEAST_ROWS = 8, MOST_ROWS = 20000 };
+
+static sb_status check_series(const char *path, series *s, sb_error *error)
+{
+    if (s->rows < LEAST_ROWS || s->rows > MOST_ROWS)
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: %zu rows, expected %d to %d", path, s->rows, LEAST_ROWS,
+                       MOST_ROWS);
+    s->step = (s->values[2 * (s->rows - 1)] - s->values[0]) / (double)(s->rows - 1);
+    for (size_t i = 1; i < s->rows; i++) {
+        const double step = s->values[2 * i] - s->values[2 * i - 2];
+        if (!(s->step > 0) || fabs(step - s->step) > 0.02 * s->step)
+            return sb_fail(error, SB_BAD_INPUT,
+                           "%.500s: row %zu follows after %g s, expected equal steps of about %g s", path, i + 1, step,
+                           s->step);
+    }
+    return SB_OK;
+}
+
+/* The Fourier coefficient n of the series less its mean: A in Re(A exp(2 pi i n t/T)), T = rows * step. */
+static void coefficient(const series *s, size_t n, double mean, double *re, double *im)
+{
+    *re = *im = 0;
+    for (size_t i = 0; i < s->rows; i++) {
+        const double angle = 2 * M_PI * (double)((n * i) % s->rows) / (double)s->rows, v = s->values[2 * i + 1] - mean;
+        *re += v * cos(angle);
+        *im -= v * sin(angle);
+    }
+    const double scale = (2 * n == s->rows ? 1.0 : 2.0) / (double)s->rows;
+    *re *= scale;
+    *im *= scale;
+}
+
+/* Share of the series' energy that may be left out at high frequencies: noise of the gauge, which asks for much speed.
+ */
+static const double LEFT_OUT = 1e-4;
+
+/* Fills the parts with the lowest frequencies, until all but LEFT_OUT of the energy is in them. */
+static void fill_parts(const series *s, double distance, sb_wave_train *train)
+{
+    double mean = 0, energy = 0, sum = 0, highest = 0;
+    for (size_t i = 0; i < s->rows; i++) mean += s->values[2 * i + 1] / (double)s->rows;
+    for (size_t i = 0; i < s->rows; i++) energy += pow(s->values[2 * i + 1] - mean, 2) * 2 / (double)s->rows;
+    const double length = s->step * (double)s->rows;
+    const size_t most = train->count;
+    train->count = 0;
+    for (size_t n = 1; n <= most && sum < (1 - LEFT_OUT) * energy; n++) {
+        double re, im;
+        coefficient(s, n, mean, &re, &im);
+        const double amplitude = hypot(re, im), omega = 2 * M_PI * (double)n / length;
+        sb_wave_train_set(train, n - 1, amplitude, omega, 0);
+        train->part[n - 1].phase = remainder(atan2(im, re) + train->part[n - 1].number * distance, 2 * M_PI);
+        train->count = n;
+        sum += amplitude * amplitude;
+        if (amplitude > highest) train->facts.period = length / (double)n;
+        highest = fmax(highest, amplitude);
+    }
+    train->facts.height = sqrt(8 * sum);
+}
+
+static sb_status create_signal(const sb_wavemaker_parameters *p, void **state, sb_error *error)
+{
+    series s = {0};
+    sb_status status = sb_number_rows_read(p->file, 2, "time (s) surface (m)", &s.values, &s.rows, error);
+    if (status == SB_OK) status = check_series(p->file, &s, error);
+    sb_wave_train *train = status == SB_OK ? sb_wave_train_create(p, s.rows / 2) : NULL;
+    if (status == SB_OK && !train) status = sb_fail_memory(error, "a wave maker");
+    if (train) fill_parts(&s, p->distance, train);
+    if (status == SB_OK && !(train->facts.height > 0))
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s: the surface is constant, expected waves", p->file);
+    const double length = s.step * (double)s.rows;
+    sb_free(s.values);
+    if (status != SB_OK) {
+        sb_wave_train_destroy(train);
+        return status;
+    }
+    if (train->ramp < 0) train->ramp = 0;
+    train->lasts = fmin(train->lasts, length);
+    train->facts.theory = "linear sum, by a measured surface";
+    train->facts.height_name = "significant height";
+    sb_wave_train_complete(train);
+    *state = train;
+    return SB_OK;
+}
+
+const sb_wavemaker sb_wavemaker_components = {
+    .name = "components",
+    .summary = "piston for a sum of linear waves listed in a file",
+    .reference = "Biesel 1951",
+    .needs = SB_WM_DEPTH | SB_WM_FILE | SB_WM_TRAIN,
+    .create = create_components,
+    SB_WAVE_TRAIN_LAW,
+};
+
+const sb_wavemaker sb_wavemaker_signal = {
+    .name = "signal",
+    .summary = "piston that makes the surface of a file at a distance, by linear theory",
+    .reference = "Biesel 1951",
+    .needs = SB_WM_DEPTH | SB_WM_FILE | SB_WM_DISTANCE | SB_WM_TRAIN,
+    .create = create_signal,
+    SB_WAVE_TRAIN_LAW,
+};

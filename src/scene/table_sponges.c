@@ -1,0 +1,57 @@
+#include "scene/reader.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *const side_names[] = {"x_min", "x_max", "y_min", "y_max", NULL};
+static const char *const profile_names[] = {"linear", "quadratic", "cubic", NULL};
+
+/* clang-format off */
+static const sb_key keys[] = {
+    {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_sponge, name), .flags = SB_KEY_REQUIRED,
+     .doc = "Unique name of the sponge."},
+    {.name = "side", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_sponge, side), .words = side_names,
+     .flags = SB_KEY_REQUIRED, .doc = "Side of the domain towards which the strength grows."},
+    {.name = "end", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, end), .unit = "m", SB_KEY_ANY,
+     .derived = "that of the side", .doc = "Coordinate, x or y, at which the strength is reached. It stays behind that."},
+    {.name = "length", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, length), .unit = "m", .min = 0, .max = HUGE_VAL,
+     .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Length in which the strength grows from 0; one wavelength or more."},
+    {.name = "profile", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_sponge, profile), .words = profile_names,
+     .fallback = "quadratic", .doc = "How the strength grows along the length."},
+    {.name = "period", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, period), .unit = "s", .min = 0, .max = HUGE_VAL,
+     .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Period of the waves; of a spectrum, that of its peak."},
+    {.name = "depth", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, depth), .unit = "m", .min = 0, .max = HUGE_VAL,
+     .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Still-water depth there."},
+    {.name = "strength", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, strength), .unit = "1/s", SB_KEY_POSITIVE,
+     .derived = "the one with the least reflection by linear theory",
+     .doc = "Greatest strength: water loses this share of its velocity per second."},
+};
+/* clang-format on */
+
+static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    sb_sponge *sponge = item;
+    const sb_scene *scene = reader->scene;
+    const sb_domain *domain = &scene->domain;
+    const double sides[] = {domain->min.x, domain->max.x, domain->min.y, domain->max.y};
+    const int axis = sponge->side / 2;
+    if (scene->dimensions == 2 && axis == 1)
+        return sb_reader_fail(reader, map, "side", "%s has no effect in 2D, expected x_min or x_max",
+                              side_names[sponge->side]);
+    if (sb_scene_repeats(scene, axis))
+        return sb_reader_fail(reader, map, "side", "%s is periodic, expected another kind of side",
+                              side_names[sponge->side]);
+    if (!sb_yaml_child(map, "end")) sponge->end = sides[sponge->side];
+    if (!(sponge->end >= sides[2 * axis] && sponge->end <= sides[2 * axis + 1]))
+        return sb_reader_fail(reader, map, "end", "%g m is outside of the domain, expected %g to %g", sponge->end,
+                              sides[2 * axis], sides[2 * axis + 1]);
+    if (!(sponge->length <= sides[2 * axis + 1] - sides[2 * axis]))
+        return sb_reader_fail(reader, map, "length", "%g m is longer than the domain, expected at most %g m",
+                              sponge->length, sides[2 * axis + 1] - sides[2 * axis]);
+    if (!sb_yaml_child(map, "strength"))
+        sponge->strength = sb_sponge_best(sponge->profile, 2 * M_PI / sponge->period, sponge->depth,
+                                          scene->fluid.gravity, sponge->length);
+    return SB_OK;
+}
+
+const sb_table sb_sponge_table = {SB_KEY_ROWS(keys), .size = sizeof(sb_sponge), .finish = finish};

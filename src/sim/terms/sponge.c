@@ -1,0 +1,62 @@
+#include "sim/terms/sponge.h"
+
+#include "sim/exchange/exchange.h"
+#include "sim/exchange/sums.h"
+#include "sim/step/ledger.h"
+
+#include <math.h>
+
+/* Share of the velocity that a particle loses in this step. */
+static float lost_share(const sb_sim *sim, sb_record at)
+{
+    const double x[] = {sim->space.origin.x + at[0] * sim->space.quantum,
+                        sim->space.origin.y + at[1] * sim->space.quantum};
+    double strength = 0;
+    for (size_t s = 0; s < sim->scene->sponge_count; s++) {
+        const sb_sponge *sponge = &sim->scene->sponges[s];
+        const double beyond = (x[sponge->side / 2] - sponge->end) * (sponge->side % 2 ? 1 : -1);
+        strength += sponge->strength * sb_sponge_share(sponge->profile, 1 + beyond / sponge->length);
+    }
+    const double part = strength * sim->state.time_step;
+    return (float)(part / (1 + part));
+}
+
+static sb_f4 change_of(const sb_sim *sim, size_t i)
+{
+    const sb_f4 share = sb_splat(lost_share(sim, sim->state.position[i]));
+    sb_f4 change = -share * sim->state.velocity[i];
+    change[3] = 0;
+    return change;
+}
+
+sb_status sb_stage_sponge(sb_sim *sim, sb_error *error)
+{
+    (void)error;
+    if (!sim->policy->runs) return SB_OK;
+    const size_t n = sim->state.n;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) sim->work.predicted[i] += change_of(sim, i);
+    sb_refresh(sim, sim->work.predicted);
+    return SB_OK;
+}
+
+static double drain(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
+{
+    for (int k = 0; k < 4; k++) terms[k] = 0;
+    for (size_t i = group->first; i < group->end; i++) {
+        const sb_f4 change = change_of(sim, i);
+        terms[0] += sb_ledger_work((sb_f4){0}, change, sim->state.velocity[i], sim->work.end_velocity[i]);
+        for (int axis = 0; axis < 3; axis++) terms[1 + axis] += (double)change[axis];
+    }
+    return 0;
+}
+
+sb_status sb_stage_drained(sb_sim *sim, sb_error *error)
+{
+    (void)error;
+    double sum[4] = {0};
+    if (sim->policy->runs) sb_sum_groups(sim, 4, drain, sum);
+    sim->work.sponge_work = sum[0];
+    sim->work.sponge_gain = sb_scale(sb_vec(sum[1], sum[2], sum[3]), (double)sim->constant.mass);
+    return SB_OK;
+}

@@ -1,0 +1,13 @@
+/* Sponges: zones in which water is slowed down, physics/sponge.h. */
+#ifndef SB_SIM_SPONGE_H
+#define SB_SIM_SPONGE_H
+
+#include "sim/simulation.h"
+
+/* Stages. After the forces: v* loses strength dt/(1 + strength dt) of the velocity at the step's start, so that water
+   at rest stays at rest. */
+sb_status sb_stage_sponge(sb_sim *sim, sb_error *error);
+/* Sums the work and the momentum of that into sim->work, before particles move. */
+sb_status sb_stage_drained(sb_sim *sim, sb_error *error);
+
+#endif

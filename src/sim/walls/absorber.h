@@ -1,0 +1,31 @@
+/* Paddles that absorb waves: they move from their law with a velocity that follows from the water beside them
+   (physics/paddle_transfer.h). */
+#ifndef SB_SIM_ABSORBER_H
+#define SB_SIM_ABSORBER_H
+
+#include "sim/simulation.h"
+
+typedef struct sb_absorber {
+    sb_absorbing_filter filter;
+    double face, distance;   /* m along the direction: face at rest; place ahead of it where its water is measured */
+    double side[2], from[2]; /* unit vector along the face in x and y; its extent along that, m */
+    double reach;            /* m */
+    /* state */
+    bool known;               /* the column at rest is */
+    double still;             /* m, depth of the water beside it at the start, by its particles */
+    double low, fast, offset; /* m: slow part of the surface, its lagged part, displacement from the law */
+    double speed;             /* m/s, of the offset */
+    double farthest;          /* m, largest |offset| */
+    uint64_t limited;         /* steps in which reach stopped it */
+} sb_absorber;
+
+/* Makes the absorber of a moving body if its law has one. */
+sb_status sb_absorber_create(sb_sim *sim, size_t body, sb_moving_body *moving, sb_error *error);
+/* Reads the water at the present time, and returns the offset at the end of the step. */
+double sb_absorber_advance(sb_sim *sim, sb_moving_body *moving);
+
+void sb_absorbers_save(const sb_sim *sim, sb_archive_out *out);
+void sb_absorbers_load(sb_sim *sim, sb_archive_in *in);
+uint64_t sb_absorbers_hash(const sb_sim *sim, uint64_t hash);
+
+#endif

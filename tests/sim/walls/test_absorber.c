@@ -1,0 +1,123 @@
+/* Paddles that absorb: a wave group between two of them dies out, one between paddles that do not stays. The state is
+   saved, and does not depend on threads. */
+#include "../../check.h"
+#include "base/archive.h"
+#include "sim/tank.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdio.h>
+
+static const char text[] = "dimensions: 2\nresolution: 0.1\nduration: 30\n"
+                           "domain: {min: [-1, 0], max: [9.3, 2]}\n"
+                           "water: {level: 1.0, seed: [2, 0.5]}\n"
+                           "bodies:\n"
+                           "  - {name: near, shape: box, min: [-0.4, 0], max: [0, 1.8]}\n"
+                           "  - {name: far, shape: box, min: [8.3, 0], max: [8.7, 1.8]}\n"
+                           "wavemakers:\n"
+                           "  - {name: waves, body: near, kind: regular, height: 0.15, depth: 1, period: 2.3, lasts: 7,"
+                           " ramp: 2.3, absorb: true}\n"
+                           "  - {name: taker, body: far, kind: absorber, depth: 1, period: 2.3, direction: [-1, 0]}\n";
+
+typedef struct flume {
+    sb_scene scene;
+    sb_model model;
+    sb_sim *sim;
+} flume;
+
+static void make(flume *f, bool absorb)
+{
+    const char *path = SB_BINARY_DIR "/absorber.yaml";
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+    sb_error error = {0};
+    *f = (flume){0};
+    if (sb_scene_read(path, NULL, NULL, 0, &f->scene, &error) != SB_OK) fail_msg("%s", error.text);
+    if (!absorb)
+        for (size_t w = 0; w < f->scene.wavemaker_count; w++) f->scene.wavemakers[w].law.absorb = false;
+    if (!absorb) f->scene.wavemakers[1].law = f->scene.wavemakers[0].law;
+    if (!absorb) f->scene.wavemakers[1].law.start = 1e6;
+    if (sb_model_build(&f->scene, &f->model, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sb_sim_create(&f->scene, &f->model, &f->sim, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sb_sim_settle(f->sim, &error) != SB_OK) fail_msg("%s", error.text);
+}
+
+static void free_flume(flume *f)
+{
+    sb_sim_destroy(f->sim);
+    sb_model_free(&f->model);
+    sb_scene_free(&f->scene);
+}
+
+/* Mean kinetic energy over a time, J/m. */
+static double kinetic_until(flume *f, double from, double to)
+{
+    double sum = 0;
+    int count = 0;
+    while (sb_sim_report(f->sim)->time < to) {
+        assert_int_equal(tank_steps(f->sim, 1), 0);
+        if (sb_sim_report(f->sim)->time < from) continue;
+        sum += sb_sim_energy(f->sim).kinetic;
+        count++;
+    }
+    return sum / count;
+}
+
+static void waves_between_absorbers_die_out(void **state)
+{
+    (void)state;
+    double share[2];
+    for (int absorb = 0; absorb <= 1; absorb++) {
+        flume f;
+        make(&f, absorb);
+        const double first = kinetic_until(&f, 4, 6), last = kinetic_until(&f, 19, 23);
+        const sb_absorption one = sb_sim_absorption(f.sim, 0), other = sb_sim_absorption(f.sim, 1);
+        share[absorb] = last / first;
+        printf("absorb %d: kinetic energy %.4g, then %.4g J/m; farthest %.3g and %.3g m, at the end %.3g and %.3g m\n",
+               absorb, first, last, one.farthest, other.farthest, one.offset, other.offset);
+        assert_int_equal(one.absorbs, absorb);
+        if (absorb) assert_true(fmax(one.farthest, other.farthest) > 0.01 && one.limited == 0 && other.limited == 0);
+        free_flume(&f);
+    }
+    assert_true(share[0] > 0.3);
+    assert_true(share[1] < 0.03);
+}
+
+static uint64_t run(flume *f, int threads, int steps)
+{
+    omp_set_num_threads(threads);
+    assert_int_equal(tank_steps(f->sim, steps), 0);
+    return sb_sim_hash(f->sim);
+}
+
+static void state_is_saved_and_independent_of_threads(void **state)
+{
+    (void)state;
+    const int before = omp_get_max_threads();
+    flume f, g;
+    make(&f, true);
+    make(&g, true);
+    run(&f, 1, 150);
+    sb_archive_out out = {0};
+    tank_save(f.sim, &out);
+    const uint64_t whole = run(&f, 1, 100);
+    assert_true(run(&g, 3, 250) == whole);
+    sb_error error = {0};
+    if (tank_load(g.sim, &out, &error) != SB_OK) fail_msg("%s", error.text);
+    assert_true(run(&g, 2, 100) == whole);
+    omp_set_num_threads(before);
+    sb_archive_out_free(&out);
+    free_flume(&f);
+    free_flume(&g);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(waves_between_absorbers_die_out),
+        cmocka_unit_test(state_is_saved_and_independent_of_threads),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
