@@ -54,7 +54,8 @@ enum {
     SB_OPT_FORMAT = 262144,
     SB_OPT_TIMES = 524288,
     SB_OPT_CELL = 1048576,
-    SB_OPT_SMOOTH = 2097152
+    SB_OPT_SMOOTH = 2097152,
+    SB_OPT_SHORT_OUT = 4194304 /* -o, the same as --out */
 };
 
 /* Parses the arguments after the command's name. what: the name of the positional argument in messages. */
