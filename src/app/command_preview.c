@@ -116,7 +116,8 @@ static sb_status draw_sampling(preview *p, const sb_camera_key *key, sb_error *e
     if (p->model->images)
         snprintf(title, sizeof title, "walls that reflect water: %zu facets, lines are their edges",
                  p->model->facets.count);
-    sb_status status = sb_samples_density(p->model, p->scene->numerics.wall_spacing * p->scene->resolution, density, error);
+    sb_status status =
+        sb_samples_density(p->model, p->scene->numerics.wall_spacing * p->scene->resolution, density, error);
     if (status == SB_OK) status = sb_samples_draw(p->model, density, &view, &p->tile, error);
     sb_free(density);
     if (status != SB_OK) return status;
@@ -165,7 +166,8 @@ static sb_status draw_tiles(preview *p, size_t cameras, sb_error *error)
     if (status == SB_OK && !flat) status = draw_view(p, "from the side", other, &side, crowded ? 0 : ALL, error);
     if (status == SB_OK) status = draw_sampling(p, flat ? &side : &corner, error);
     if (status == SB_OK && !flat)
-        status = draw_view(p, "from the corner of small x and y", other, &corner, crowded ? SB_MARK_BODIES : ALL, error);
+        status =
+            draw_view(p, "from the corner of small x and y", other, &corner, crowded ? SB_MARK_BODIES : ALL, error);
     return status == SB_OK ? draw_cameras(p, cameras, crowded ? SB_MARK_BODIES : ALL, error) : status;
 }
 
@@ -243,9 +245,9 @@ int sb_command_preview(int count, char **arguments)
 {
     sb_options options;
     sb_error error = {0};
-    sb_status status = sb_options_parse(
-        count, arguments, SB_OPT_OUT | SB_OPT_SHORT_OUT | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_THREADS, "scene",
-        &options, &error);
+    sb_status status =
+        sb_options_parse(count, arguments, SB_OPT_OUT | SB_OPT_SHORT_OUT | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_THREADS,
+                         "scene", &options, &error);
     if (status == SB_OK && options.help) {
         fputs(help, stdout);
         return 0;

@@ -90,7 +90,8 @@ static void mark_wavemaker(drawing *d, const sb_model_body *body, sb_vec3 from)
     const sb_vec3 size = sb_sub(d->model->max, d->model->min);
     const double length = fmin(0.12 * fmax(size.x, d->model->dimensions == 2 ? 0 : size.y), 0.7 * size.z);
     const sb_vec3 to = sb_madd(from, length, use->direction);
-    const sb_vec3 side = fabs(use->direction.z) > 0.9 ? sb_vec(1, 0, 0) : sb_vec(-use->direction.y, use->direction.x, 0);
+    const sb_vec3 side =
+        fabs(use->direction.z) > 0.9 ? sb_vec(1, 0, 0) : sb_vec(-use->direction.y, use->direction.x, 0);
     const sb_vec3 up = sb_vec(0, 0, fabs(use->direction.z) > 0.9 ? 0 : 1);
     char text[2 * SB_NAME_MAX];
     line(d, from, to, maker_color);

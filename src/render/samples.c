@@ -77,8 +77,7 @@ sb_status sb_samples_density(const sb_model *model, double spacing, float *densi
     placed *sorted = sb_alloc(model->wall_count, sizeof *sorted);
     if (!sorted) return sb_fail_memory(error, "the density of boundary particles");
     for (size_t i = 0; i < model->wall_count; i++) low = sb_min(low, model->wall_position[i]);
-    for (size_t i = 0; i < model->wall_count; i++)
-        sorted[i] = (placed){key_of(model, low, i, range), (uint32_t)i};
+    for (size_t i = 0; i < model->wall_count; i++) sorted[i] = (placed){key_of(model, low, i, range), (uint32_t)i};
     qsort(sorted, model->wall_count, sizeof *sorted, by_key);
     for (size_t i = 0; i < model->wall_count; i++) {
         double sum = 0;
@@ -99,7 +98,8 @@ sb_status sb_samples_density(const sb_model *model, double spacing, float *densi
 /* Blue for sparse, light for one particle per square, red for dense. */
 static void color_of(double density, float rgb[3])
 {
-    static const float sparse[3] = {0.13f, 0.35f, 0.70f}, right[3] = {0.93f, 0.93f, 0.90f}, dense[3] = {0.75f, 0.15f, 0.12f};
+    static const float sparse[3] = {0.13f, 0.35f, 0.70f}, right[3] = {0.93f, 0.93f, 0.90f},
+                       dense[3] = {0.75f, 0.15f, 0.12f};
     const double at = fmin(fmax((density - LEAST) / (MOST - LEAST), 0), 1);
     const float *a = at < 0.5 ? sparse : right, *b = at < 0.5 ? right : dense;
     const float part = (float)(at < 0.5 ? 2 * at : 2 * at - 1);
@@ -159,12 +159,14 @@ static sb_status draw_legend(sb_image *image, bool flat, sb_error *error)
         sb_paint_box(image, x + column, y, x + column + 1, y + thick, rgb, 1);
     }
     const char *text = flat ? "boundary particles, 1: as on a line" : "boundary particles, 1: as on a plane";
-    sb_status status = sb_font_draw(image, x + width - sb_font_width(text, letters), y - 8 * unit, letters, ink, text, error);
+    sb_status status =
+        sb_font_draw(image, x + width - sb_font_width(text, letters), y - 8 * unit, letters, ink, text, error);
     for (int tick = 0; tick <= 2 && status == SB_OK; tick++) {
         char label[16];
         snprintf(label, sizeof label, "%.2g", LEAST + (MOST - LEAST) * tick / 2);
         const double wide = sb_font_width(label, letters);
-        status = sb_font_draw(image, x + width * tick / 2 - 0.5 * wide, y + thick + 16 * unit, letters, ink, label, error);
+        status =
+            sb_font_draw(image, x + width * tick / 2 - 0.5 * wide, y + thick + 16 * unit, letters, ink, label, error);
     }
     return status;
 }

@@ -25,9 +25,10 @@ static void three_dimensions(void **state)
     outcome_free(&o);
     check_size("a.png", 2, 3);
     /* An earlier picture of the program is replaced. */
-    RUN_AND_FORGET(0, "preview", "tank3.yaml", "--out", "a.png", "--set",
-                   "render.cameras=[{name: p, closeup: post}, {name: o, orbit: {target: [1, 0, 0], radius: 3, period: 9}}, "
-                   "{name: f, eye: [1, -3, 1], target: [1, 0, 0], follow: crest}]");
+    RUN_AND_FORGET(
+        0, "preview", "tank3.yaml", "--out", "a.png", "--set",
+        "render.cameras=[{name: p, closeup: post}, {name: o, orbit: {target: [1, 0, 0], radius: 3, period: 9}}, "
+        "{name: f, eye: [1, -3, 1], target: [1, 0, 0], follow: crest}]");
     check_size("a.png", 2, 4);
     assert_false(exists("frames") || exists("run.jsonl"));
 }

@@ -28,9 +28,10 @@ static void lines_cover_the_pixels_near_them(void **state)
 {
     (void)state;
     static const float white[3] = {1, 1, 1};
-    static const double ends[][5] = {{5, 5, 55, 9, 3},      {20, 50, 24, 2, 2},    {-30, 20, 90, 45, 4}, {7, 7, 7, 50, 1},
-                                     {3, 30, 60, 30, 2},    {30, 30, 30, 30, 6},   {70, 80, 10, -40, 5}, {50, 10, 49.9, 40, 3},
-                                     {-9, -9, -2, -2, 1.5}, {60, 60, 80, 61, 2.5}, {1, 1, 62, 62, 1}};
+    static const double ends[][5] = {{5, 5, 55, 9, 3},      {20, 50, 24, 2, 2},    {-30, 20, 90, 45, 4},
+                                     {7, 7, 7, 50, 1},      {3, 30, 60, 30, 2},    {30, 30, 30, 30, 6},
+                                     {70, 80, 10, -40, 5},  {50, 10, 49.9, 40, 3}, {-9, -9, -2, -2, 1.5},
+                                     {60, 60, 80, 61, 2.5}, {1, 1, 62, 62, 1}};
     for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
         sb_image image = black(64, 64);
         const double *e = ends[i];
@@ -73,7 +74,8 @@ static double curve_at(const sb_image *image, int x)
     return count > 0 ? sum / count : -1;
 }
 
-/* The curve of v = 1000 t rises along the axes of 0 to 10 s and 0 to 10 kN, stops at the picture's time, and has gaps. */
+/* The curve of v = 1000 t rises along the axes of 0 to 10 s and 0 to 10 kN, stops at the picture's time, and has gaps.
+ */
 static void a_plot_shows_its_rows(void **state)
 {
     (void)state;
@@ -121,10 +123,12 @@ static void names_do_not_cover_each_other(void **state)
     assert_true(sb_labels_project(&view, &image, sb_vec(0, 0, 0), &x, &y));
     assert_true(fabs(x - 600) < 1e-9 && fabs(y - 337.5) < 1e-9);
     /* At a distance of 10 m the picture is 20 tan(30 deg) m high. */
-    assert_true(sb_labels_project(&view, &image, sb_vec(0, 0, 10 * tan(3.14159265358979 / 6)), &x, &y) && fabs(y) < 1e-6);
+    assert_true(sb_labels_project(&view, &image, sb_vec(0, 0, 10 * tan(3.14159265358979 / 6)), &x, &y) &&
+                fabs(y) < 1e-6);
     assert_false(sb_labels_project(&view, &image, sb_vec(0, -20, 0), &x, &y));
     for (int i = 0; i < 40; i++)
-        assert_int_equal(sb_labels_add(&labels, &image, &view, sb_vec(0.02 * i, 0, 0.01 * i), rgb, "reactor", NULL), SB_OK);
+        assert_int_equal(sb_labels_add(&labels, &image, &view, sb_vec(0.02 * i, 0, 0.01 * i), rgb, "reactor", NULL),
+                         SB_OK);
     assert_int_equal(labels.count + labels.left_out, 40);
     assert_true(labels.count > 30);
     for (size_t i = 0; i < labels.count; i++)
@@ -171,8 +175,10 @@ static void the_density_of_a_plane_is_one(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lines_cover_the_pixels_near_them), cmocka_unit_test(boxes_are_cut_off),
-        cmocka_unit_test(a_plot_shows_its_rows),            cmocka_unit_test(names_do_not_cover_each_other),
+        cmocka_unit_test(lines_cover_the_pixels_near_them),
+        cmocka_unit_test(boxes_are_cut_off),
+        cmocka_unit_test(a_plot_shows_its_rows),
+        cmocka_unit_test(names_do_not_cover_each_other),
         cmocka_unit_test(the_density_of_a_plane_is_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
