@@ -190,7 +190,9 @@ static void put_run(run *r, const sb_csv_marks *tables, sb_archive_out *out)
     sb_put_list(out, tables->bytes, SB_CSV_TABLES, sizeof *tables->bytes);
     sb_put_list(out, tables->hash, SB_CSV_TABLES, sizeof *tables->hash);
     sb_missed_save(r, out);
-    sb_put_count(out, r->pictures.count);
+    sb_put_real(out, r->picture_times.film);
+    sb_put_count(out, r->picture_times.still);
+    sb_pictures_save(&r->pictures, out);
     sb_recorder_save(&r->recorder, out);
 }
 

@@ -67,6 +67,17 @@ static sb_status check_origin(run *r, sb_archive_in *in, sb_error *error)
     return status;
 }
 
+/* All pictures up to the state's time have been drawn. */
+static void take_picture_times(run *r, sb_archive_in *in)
+{
+    const double interval = r->scene->render.interval, now = sb_sim_report(r->sim)->time;
+    const double film = sb_take_real(in);
+    r->picture_times.film = film;
+    r->picture_times.still = sb_take_count(in, r->scene->render.still_count);
+    if (interval > 0 && !(film >= now * (1 - 1e-9) && film <= now + 2 * interval))
+        sb_archive_refuse(in, "the next picture is due at %g s, expected within %g s from %g s", film, interval, now);
+}
+
 static sb_status take_run(run *r, sb_archive_in *in, sb_error *error)
 {
     sb_energy *first = &r->first_energy;
@@ -86,8 +97,9 @@ static sb_status take_run(run *r, sb_archive_in *in, sb_error *error)
     sb_take_list(in, r->tables.bytes, SB_CSV_TABLES, sizeof *r->tables.bytes);
     sb_take_list(in, r->tables.hash, SB_CSV_TABLES, sizeof *r->tables.hash);
     sb_missed_load(r, in);
-    r->pictures.count = sb_take_count(in, UINT32_MAX); /* the next checkpoint syncs all of them again */
-    status = sb_recorder_load(&r->recorder, in, error);
+    take_picture_times(r, in);
+    status = sb_pictures_load(&r->pictures, in, error);
+    if (status == SB_OK) status = sb_recorder_load(&r->recorder, in, error);
     if (status == SB_OK) status = sb_archive_leave(in, error);
     return status == SB_OK ? sb_csv_check(r->directory, r->scene, &r->tables, error) : status;
 }

@@ -53,6 +53,7 @@ static estimate make_estimate(const sb_scene *scene, const sb_model *model)
     double pictures = scene->render.interval > 0
                           ? (scene->duration / scene->render.interval + 1) * (double)scene->render.camera_count
                           : 0;
+    pictures += (double)(scene->render.still_count * scene->render.camera_count);
     const sb_checkpoint_settings *settings = &scene->output.checkpoint;
     double saved = settings->minutes > 0 || settings->steps > 0 ? settings->keep : 0;
     double steps = ceil(scene->duration / dt), ghosts = sb_room_ghosts(scene, model);

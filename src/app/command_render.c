@@ -9,6 +9,7 @@
 #include "output/particle_format.h"
 #include "output/video.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -51,6 +52,14 @@ static sb_status read_list(const char *run, const sb_particle_format *format, sb
     return status == SB_OK ? format->read_list(path, list, error) : status;
 }
 
+/* A particle file has the state at the end of the step that passed a multiple of the interval: its picture shows the
+   water at the multiple. */
+static void carry(sb_frame *frame, double interval)
+{
+    static const double ROUNDING = 1e-9; /* as in consumer.c */
+    if (interval > 0) sb_frame_carry(frame, interval * floor(frame->status.time / interval + ROUNDING));
+}
+
 static sb_status draw_all(const char *run, const sb_particle_format *format, const sb_particle_list *list,
                           sb_pictures *pictures, bool quiet, sb_error *error)
 {
@@ -61,6 +70,7 @@ static sb_status draw_all(const char *run, const sb_particle_format *format, con
         sb_frame *frame = NULL;
         status = sb_path_join(path, run, list->entries[i].file, error);
         if (status == SB_OK) status = format->read(path, &frame, error);
+        if (status == SB_OK) carry(frame, pictures->scene->output.particle_interval);
         if (status == SB_OK) status = work.handle(pictures, frame, error);
         sb_frame_release(frame);
         if (!quiet && status == SB_OK)
@@ -132,6 +142,15 @@ static sb_status open_log(job *j, const sb_options *options, sb_error *error)
     return status == SB_OK ? choose_camera(&j->scene, options->camera, &j->camera, error) : status;
 }
 
+static sb_status draw_pictures(const job *j, sb_pictures *pictures, sb_error *error)
+{
+    sb_status status = j->is_log ? sb_render_log_draw(j->source, pictures, j->quiet, error)
+                                 : draw_all(j->source, j->format, &j->list, pictures, j->quiet, error);
+    const uint64_t count = pictures->film.count;
+    if (status == SB_OK && count > 1) make_videos(j->directory, &j->scene, j->camera, count);
+    return status;
+}
+
 static sb_status draw_job(job *j, sb_error *error)
 {
     sb_status status = sb_make_directories(j->directory, error);
@@ -140,10 +159,12 @@ static sb_status draw_job(job *j, sb_error *error)
     if (status == SB_OK) status = check_place(j->directory, &j->scene, j->camera, error);
     if (status == SB_OK && !j->is_log) status = sb_model_import_bodies(&j->scene, &j->model, error);
     if (status != SB_OK) return status;
-    sb_pictures pictures = {.scene = &j->scene, .model = &j->model, .directory = j->directory, .camera = j->camera};
-    status = j->is_log ? sb_render_log_draw(j->source, &pictures, j->quiet, error)
-                       : draw_all(j->source, j->format, &j->list, &pictures, j->quiet, error);
-    if (status == SB_OK && pictures.count > 1) make_videos(j->directory, &j->scene, j->camera, pictures.count);
+    sb_pictures pictures;
+    status = sb_pictures_begin(&pictures, &j->scene, &j->model, j->directory, error);
+    pictures.camera = j->camera;
+    if (status == SB_OK && !j->is_log) status = sb_insets_read(&pictures.insets, j->source, error);
+    if (status == SB_OK) status = draw_pictures(j, &pictures, error);
+    sb_pictures_free(&pictures);
     return status;
 }
 

@@ -5,6 +5,7 @@
 int sb_command_run(int count, char **arguments);
 int sb_command_check(int count, char **arguments);
 int sb_command_sample(int count, char **arguments);
+int sb_command_preview(int count, char **arguments);
 int sb_command_render(int count, char **arguments);
 int sb_command_report(int count, char **arguments);
 int sb_command_compare(int count, char **arguments);

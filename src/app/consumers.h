@@ -3,12 +3,14 @@
 #define SB_APP_CONSUMERS_H
 
 #include "app/consumer.h"
+#include "app/insets.h"
 #include "app/written.h"
 #include "base/archive.h"
 #include "base/file.h"
 #include "geometry/model/model.h"
 #include "output/particle_format.h"
 #include "output/runlog.h"
+#include "render/cameras.h"
 #include "render/image.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
@@ -29,18 +31,36 @@ sb_status sb_recorder_sync(sb_recorder *recorder, sb_gone *gone, sb_error *error
 void sb_recorder_save(const sb_recorder *recorder, sb_archive_out *out);
 sb_status sb_recorder_load(sb_recorder *recorder, sb_archive_in *in, sb_error *error);
 
-/* frames/<camera>/NNNNNN.png; camera < 0: all of them */
+/* A folder of numbered pictures of each camera: <folder>/<camera>/NNNNNN.png. */
+typedef struct sb_picture_set {
+    const char *folder;
+    uint64_t count, synced; /* pictures of each camera; of these, synced to disk */
+    bool cleared;           /* pictures beyond the count have been removed */
+} sb_picture_set;
+
+/* Pictures of the film and stills, of one camera, or of all: camera < 0. */
 typedef struct sb_pictures {
     const sb_scene *scene;
     const sb_model *model;
-    const char *directory; /* the folder that contains frames/ */
+    const char *directory; /* the folder that contains those of the pictures */
     int camera;
+    sb_camera_motion *motions; /* by camera, owned */
+    sb_poses poses;            /* for the renderers */
+    sb_insets insets;
     sb_renderer *renderer;
     sb_image image;
-    uint64_t count, synced; /* pictures of each camera; of these, synced to disk */
-    bool cleared;           /* pictures beyond the count have been removed */
+    sb_picture_set film, stills;
 } sb_pictures;
+/* Allocates what pictures of this scene need, and checks the names of bodies in cameras and insets. SB_BAD_INPUT names
+   a body that the model does not have. Free *pictures with sb_pictures_free, also after a failure. */
+sb_status sb_pictures_begin(sb_pictures *pictures, const sb_scene *scene, const sb_model *model, const char *directory,
+                            sb_error *error);
+void sb_pictures_free(sb_pictures *pictures);
 sb_consumer_work sb_pictures_work(sb_pictures *pictures);
+/* Call these while the thread is idle or not started: they write and read the motions of cameras, the counts, and the
+   rows of insets within a section of an archive. */
+void sb_pictures_save(sb_pictures *pictures, sb_archive_out *out);
+sb_status sb_pictures_load(sb_pictures *pictures, sb_archive_in *in, sb_error *error);
 /* Call this while the thread is idle or not started: syncs the pictures to disk and counts those that were removed. The
    thread removes pictures beyond its count: at its start when the run was resumed, else with its first picture. */
 sb_status sb_pictures_sync(sb_pictures *pictures, sb_gone *gone, sb_error *error);

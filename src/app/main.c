@@ -21,6 +21,8 @@ static const struct {
     {"run", "simulate a scene, measure forces, draw pictures, stream", sb_command_run, false},
     {"check", "print the particles, estimated cost and warnings of a scene, without running it", sb_command_check,
      true},
+    {"preview", "draw the set-up of a scene with the names of its parts, without running it", sb_command_preview,
+     false},
     {"sample", "write a scene's boundary and fluid particles for ParaView", sb_command_sample, false},
     {"render", "draw pictures from a finished run's particle files, or from a recorded stream", sb_command_render,
      false},

@@ -20,6 +20,7 @@ enum { DEFAULT_PORT = 8080 }; /* of --live */
 
 static const flag flags[] = {
     {"--out", SB_OPT_OUT, VALUE},
+    {"-o", SB_OPT_SHORT_OUT, VALUE},
     {"--until", SB_OPT_UNTIL, VALUE},
     {"--threads", SB_OPT_THREADS, VALUE},
     {"--preset", SB_OPT_PRESET, VALUE},
@@ -100,6 +101,7 @@ static sb_status take(sb_options *options, unsigned bit, const char *value, sb_e
     char *end = NULL, duration[64];
     switch (bit) {
     case SB_OPT_OUT:
+    case SB_OPT_SHORT_OUT:
         options->out = value;
         break;
     case SB_OPT_PRESET:

@@ -58,7 +58,8 @@ enum {
     SB_OPT_CELL = 1048576,
     SB_OPT_SMOOTH = 2097152,
     SB_OPT_FILM = 4194304,
-    SB_OPT_SEVERAL = 8388608 /* more than one positional argument */
+    SB_OPT_SEVERAL = 8388608,   /* more than one positional argument */
+    SB_OPT_SHORT_OUT = 16777216 /* -o, the same as --out */
 };
 
 /* Parses the arguments after the command's name. what: the name of the positional argument in messages. */

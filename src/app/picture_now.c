@@ -17,7 +17,7 @@ static sb_status make_renderer(const run *r, sb_requested *p, sb_error *error)
 {
     if (p->renderer) return SB_OK;
     setpriority(PRIO_PROCESS, 0, NICENESS); /* if refused, the niceness stays as it is */
-    return sb_renderer_create(&p->scene, &r->model, &p->renderer, error);
+    return sb_renderer_create(&p->poses.scene, &r->model, &p->renderer, error);
 }
 
 /* Finds a name that no file has: a picture of the same camera and step may exist. */
@@ -26,7 +26,7 @@ static sb_status name_file(const run *r, const sb_requested *p, char name[SB_STR
 {
     enum { MOST = 10000 };
     char folder[SB_PATH_MAX];
-    const char *camera = p->scene.render.cameras[p->camera].name;
+    const char *camera = p->poses.scene.render.cameras[p->camera].name;
     sb_status status = sb_make_folder(folder, r->directory, FOLDER, error);
     for (int k = 1; status == SB_OK && k < MOST; k++) {
         char more[16] = "";
@@ -38,12 +38,22 @@ static sb_status name_file(const run *r, const sb_requested *p, char name[SB_STR
     return status == SB_OK ? sb_fail(error, SB_FAILED, "%.100s: exists", name) : status;
 }
 
+/* Puts a camera of the scene where it is at the frame's time. The view of a command has its place already. */
+static void pose(const run *r, sb_requested *p, const sb_frame *frame)
+{
+    const double aspect = (double)r->scene->render.width / r->scene->render.height;
+    sb_camera_motion motion = {0}; /* a camera that follows looks at the crest at once */
+    if (p->camera < r->scene->render.camera_count)
+        p->poses.keys[p->camera] = sb_cameras_at(r->scene, &r->model, p->camera, frame, aspect, &motion);
+}
+
 static sb_status draw(void *state, const sb_frame *frame, sb_error *error)
 {
     run *r = state;
     sb_requested *p = &r->requested;
     char name[SB_STREAM_TEXT] = "", path[SB_PATH_MAX];
     sb_status status = make_renderer(r, p, error);
+    if (status == SB_OK) pose(r, p, frame);
     if (status == SB_OK) status = sb_renderer_draw(p->renderer, frame, p->camera, &p->image, error);
     if (status == SB_OK) status = name_file(r, p, name, path, error);
     if (status == SB_OK) status = sb_png_write(path, &p->image, error);
@@ -64,20 +74,12 @@ static void close_renderer(void *state)
 static sb_status begin(run *r, sb_error *error)
 {
     sb_requested *p = &r->requested;
-    const size_t count = r->scene->render.camera_count;
     const sb_consumer_work work = {.name = "requested pictures", .state = r, .handle = draw, .close = close_renderer};
-    if (p->scene.render.cameras) return SB_OK;
-    sb_camera *cameras = sb_alloc(count + 1, sizeof *cameras);
-    if (!cameras) return sb_fail_memory(error, "a picture");
-    if (count > 0) memcpy(cameras, r->scene->render.cameras, count * sizeof *cameras);
-    cameras[count] = (sb_camera){.name = "view", .key_count = 1, .keys = &p->view};
-    p->scene = *r->scene;
-    p->scene.render.cameras = cameras;
-    p->scene.render.camera_count = count + 1;
-    const sb_status status = sb_consumer_start(&p->consumer, &work, 1, 1, SB_QUEUE_WAIT, error);
-    if (status == SB_OK) return SB_OK;
-    sb_free(cameras);
-    p->scene.render.cameras = NULL;
+    if (p->poses.keys) return SB_OK;
+    sb_status status = sb_poses_create(&p->poses, r->scene, 1, error);
+    if (status != SB_OK) return status;
+    status = sb_consumer_start(&p->consumer, &work, 1, 1, SB_QUEUE_WAIT, error);
+    if (status != SB_OK) sb_poses_free(&p->poses);
     return status;
 }
 
@@ -91,7 +93,7 @@ static sb_status choose_camera(run *r, const sb_command *command, sb_error *erro
     if (*command->name && c == count)
         return sb_fail(error, SB_BAD_INPUT, "camera \"%s\": there is none of this name", command->name);
     if (!*command->name) c = count;
-    p->view = (sb_camera_key){
+    p->poses.keys[count] = (sb_camera_key){
         .eye = sb_vec(at[0], at[1], at[2]), .target = sb_vec(at[3], at[4], at[5]), .fov = FIELD_OF_VIEW};
     p->camera = c;
     return SB_OK;
@@ -125,5 +127,5 @@ void sb_picture_now_end(run *r)
 
 void sb_picture_now_free(run *r)
 {
-    sb_free(r->requested.scene.render.cameras);
+    sb_poses_free(&r->requested.poses);
 }

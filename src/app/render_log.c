@@ -40,7 +40,7 @@ static void on_frame(void *user, const sb_live_frame *live)
     sb_frame *frame = sb_log_frame(scene, live);
     r->status = frame ? r->work.handle(r->pictures, frame, r->error) : sb_fail_memory(r->error, "a frame");
     if (!r->quiet && r->status == SB_OK)
-        printf("t = %g s: picture %llu\n", live->time, (unsigned long long)r->pictures->count);
+        printf("t = %g s: picture %llu\n", live->time, (unsigned long long)r->pictures->film.count);
     sb_frame_release(frame);
 }
 
@@ -97,7 +97,7 @@ sb_status sb_render_log_draw(const char *path, sb_pictures *pictures, bool quiet
     sb_status status = r.work.open(pictures, error);
     if (status == SB_OK) status = read_log(path, &r, error);
     r.work.close(pictures);
-    if (status == SB_OK && pictures->count == 0)
+    if (status == SB_OK && pictures->film.count == 0)
         status = sb_fail(error, SB_BAD_INPUT, "%.500s: has no complete frame", path);
     return status;
 }

@@ -51,12 +51,12 @@ static double count_neighbours(const sb_scene *scene)
     return scene->dimensions == 2 ? pi * s * s : 4 * pi / 3 * s * s * s;
 }
 
-/* Frames that exist at once: those in the queue, the one that is written or drawn, the one that waits for the queue. */
+/* Frames that exist at once: those in the queue, the one that is written or drawn, the one that waits for the queue.
+   Pictures have frames of their own. */
 static double count_frames(const sb_scene *scene, const sb_model *model)
 {
-    const bool some = scene->output.particle_interval > 0 || scene->stream.enabled ||
-                      (scene->render.interval > 0 && scene->render.camera_count > 0);
-    return some ? (double)sb_room_waiting(model->fluid_count) + 2 : 0;
+    const bool others = scene->output.particle_interval > 0 || scene->stream.enabled;
+    return ((double)sb_room_waiting(model->fluid_count) + 2) * (others + sb_scene_draws(scene));
 }
 
 static double count_nodes(const sb_scene *scene, const sb_model *model)
@@ -69,8 +69,11 @@ static double count_nodes(const sb_scene *scene, const sb_model *model)
 static double picture_bytes(const sb_scene *scene, const sb_model *model)
 {
     const sb_render_settings *settings = &scene->render;
-    if (!(settings->interval > 0) || settings->camera_count == 0) return 0;
-    return GRAPHICS_BYTES + PIXEL_BYTES * settings->width * settings->height + NODE_BYTES * count_nodes(scene, model);
+    if (!sb_scene_draws(scene)) return 0;
+    /* A still is drawn while the renderer of the film waits. */
+    const double still = settings->still_count > 0 ? (double)settings->still_width * settings->still_height : 0;
+    const double pixels = (double)settings->width * settings->height + still;
+    return GRAPHICS_BYTES + PIXEL_BYTES * pixels + NODE_BYTES * count_nodes(scene, model) * (still > 0 ? 2 : 1);
 }
 
 static double map_bytes(const sb_scene *scene)

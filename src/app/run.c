@@ -16,22 +16,65 @@
 
 enum { LOG_STEPS = 100 }; /* steps between the periodic lines of the log */
 
-/* Makes one snapshot and gives it to all consumers that are due. */
-static sb_status feed(run *r, sb_error *error)
+static sb_frame *make_frame(run *r, sb_error *error)
 {
-    double time = sb_sim_report(r->sim)->time;
-    bool due = false;
-    for (int c = 0; c < CONSUMERS; c++) due |= sb_consumer_due(&r->consumers[c], time);
-    if (!due) return SB_OK;
-    sb_sim_find_virial_pressures(r->sim);
     sb_frame *frame = sb_sim_snapshot(r->sim);
-    if (!frame) return sb_fail_memory(error, "a frame");
-    frame->index = ++r->frames;
+    if (!frame) {
+        sb_fail_memory(error, "a frame");
+        return NULL;
+    }
+    frame->index = r->frames;
     sb_measure_fill_frame(r->measure, frame);
     frame->status.wall_seconds = sb_run_wall(r);
     frame->status.eta_seconds = sb_progress_eta(&r->progress);
+    return frame;
+}
+
+static void log_picture(run *r, unsigned drawn, double time)
+{
+    const sb_step_report *report = sb_sim_report(r->sim);
+    static const char text[] = "t = %.9g s, from step %llu at t = %.9g s";
+    const unsigned long long step = report->step;
+    if (drawn & SB_FRAME_FILM) sb_runlog_event(r->log, "picture", text, time, step, report->time);
+    if (drawn & SB_FRAME_STILL) sb_runlog_event(r->log, "still", text, time, step, report->time);
+}
+
+/* Pictures show the water at their exact times, which lie within the step: a film runs evenly. */
+static sb_status feed_pictures(run *r, sb_error *error)
+{
+    sb_consumer *consumer = &r->consumers[PICTURES];
+    while (sb_consumer_due(consumer, sb_sim_report(r->sim)->time)) {
+        const double time = consumer->next;
+        sb_frame *frame = make_frame(r, error);
+        if (!frame) return SB_FAILED;
+        frame->drawn = sb_picture_times_take(&r->picture_times);
+        sb_frame_carry(frame, time);
+        log_picture(r, frame->drawn, time);
+        sb_consumer_feed(consumer, frame);
+        sb_frame_release(frame);
+        consumer->next = sb_picture_times_next(&r->picture_times);
+    }
+    return SB_OK;
+}
+
+/* Gives a snapshot to all consumers that are due. */
+static sb_status feed(run *r, sb_error *error)
+{
+    const double time = sb_sim_report(r->sim)->time;
+    bool due = false, others = false;
+    for (int c = 0; c < CONSUMERS; c++) {
+        due |= sb_consumer_due(&r->consumers[c], time);
+        others |= c != PICTURES && sb_consumer_due(&r->consumers[c], time);
+    }
+    if (!due) return SB_OK;
+    sb_sim_find_virial_pressures(r->sim);
+    r->frames++;
+    sb_status status = feed_pictures(r, error);
+    if (status != SB_OK || !others) return status;
+    sb_frame *frame = make_frame(r, error);
+    if (!frame) return SB_FAILED;
     for (int c = 0; c < CONSUMERS; c++)
-        if (sb_consumer_due(&r->consumers[c], time)) sb_consumer_feed(&r->consumers[c], frame);
+        if (c != PICTURES && sb_consumer_due(&r->consumers[c], time)) sb_consumer_feed(&r->consumers[c], frame);
     sb_frame_release(frame);
     return SB_OK;
 }
@@ -69,6 +112,7 @@ static sb_status one_step(run *r, sb_error *error)
     if (sb_measure_reads_pressures(r->measure, r->sim)) sb_sim_find_virial_pressures(r->sim);
     status = sb_measure_step(r->measure, r->sim, error);
     if (status == SB_OK) status = sb_csv_write(r->csv, sb_measure_latest(r->measure), error);
+    if (status == SB_OK) status = sb_insets_add(&r->pictures.insets, sb_measure_latest(r->measure), error);
     sb_run_inform_stream(r);
     if (status == SB_OK) status = feed(r, error);
     sb_missed_report(r);
@@ -143,6 +187,7 @@ static void release_shared(run *r, bool *thread_remains)
         return;
     }
     sb_picture_now_free(r);
+    sb_pictures_free(&r->pictures);
     sb_particle_list_free(&r->recorder.list); /* of a run that was not resumed: no thread has used it */
     sb_model_free(&r->model);
 }

@@ -62,13 +62,17 @@ static void remove_folder_of(const char *directory, const char *path)
 
 sb_status sb_run_files_remove(const char *directory, const sb_run_files *files, sb_error *error)
 {
-    char frames[SB_PATH_MAX];
+    static const char *const folders[] = {"frames", "stills"};
+    char folder[SB_PATH_MAX];
     for (size_t i = 0; i < files->count; i++)
         if (unlink(files->own[i]) != 0 && errno != ENOENT)
             return sb_fail(error, SB_FAILED, "%.500s: cannot remove: %s", files->own[i], strerror(errno));
     for (size_t i = 0; i < files->count; i++) remove_folder_of(directory, files->own[i]);
-    sb_status status = sb_path_join(frames, directory, "frames", error);
-    if (status == SB_OK) (void)rmdir(frames);
+    sb_status status = SB_OK;
+    for (size_t k = 0; k < sizeof folders / sizeof *folders && status == SB_OK; k++) {
+        status = sb_path_join(folder, directory, folders[k], error);
+        if (status == SB_OK) (void)rmdir(folder);
+    }
     return status;
 }
 

@@ -18,7 +18,13 @@
 
 #define PNG "\x89PNG"
 
-typedef enum place { CHECKPOINTS, PARTICLES, GRIDS, MAPS, PLOTS, REQUESTED, CAMERA, TOP } place;
+typedef enum place { CHECKPOINTS, PARTICLES, GRIDS, MAPS, PLOTS, REQUESTED, CAMERA, STILLS, TOP } place;
+
+/* Whether the folder has a folder of pictures for each camera. */
+static bool by_camera(place in)
+{
+    return in == CAMERA || in == STILLS;
+}
 
 static const char *const folders[] = {[CHECKPOINTS] = "checkpoints",
                                       [PARTICLES] = SB_PARTICLE_FOLDER,
@@ -26,7 +32,8 @@ static const char *const folders[] = {[CHECKPOINTS] = "checkpoints",
                                       [MAPS] = "maps",
                                       [PLOTS] = "plots",
                                       [REQUESTED] = "pictures",
-                                      [CAMERA] = "frames"};
+                                      [CAMERA] = "frames",
+                                      [STILLS] = "stills"};
 enum { FOLDERS = sizeof folders / sizeof *folders };
 
 enum {
@@ -211,7 +218,7 @@ static kind kind_of(const finder *f, place in, const char *camera, const char *p
     const size_t whole = strlen(name);
     const bool temporary = whole > 4 && strcmp(name + whole - 4, ".tmp") == 0;
     const size_t length = whole - (temporary ? 4 : 0);
-    if (in == CAMERA) return kind_of_picture(f, camera, path, name);
+    if (by_camera(in)) return kind_of_picture(f, camera, path, name);
     if (in == REQUESTED) return kind_of_requested(path, name);
     kind found = kind_of_particles(in, name, length);
     if (!found.named) found = kind_of_known(in, name, length);
@@ -281,15 +288,15 @@ static sb_status look_at(const finder *f, place in, const char *camera, const ch
     char path[SB_PATH_MAX];
     sb_status status = sb_path_join(path, folder, name, f->error);
     if (status != SB_OK || (in == TOP && is_own_folder(name) && is_folder(path))) return status;
-    if (in == CAMERA && !camera && is_folder(path)) return look_into(f, in, name, path);
-    if (in == CAMERA && !camera) {
+    if (by_camera(in) && !camera && is_folder(path)) return look_into(f, in, name, path);
+    if (by_camera(in) && !camera) {
         note_other(f, path);
         return SB_OK;
     }
     return note(f, in, camera, path, name);
 }
 
-/* camera NULL: frames/, the folder that contains the cameras' folders. */
+/* camera NULL: frames/ or stills/, which contain the cameras' folders. */
 static sb_status look_into(const finder *f, place in, const char *camera, const char *folder)
 {
     const struct dirent *entry;

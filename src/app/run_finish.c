@@ -207,7 +207,7 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         .last = sb_sim_energy(r->sim),
         .hash = sb_sim_hash(r->sim),
         .frames = r->recorder.count,
-        .pictures = r->pictures.count,
+        .pictures = r->pictures.film.count,
         .frames_missing = sb_missed_sum(r, RECORDER).count,
         .pictures_missing = sb_missed_sum(r, PICTURES).count,
     };
@@ -236,14 +236,14 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
    made when the run is resumed. */
 static sb_status make_films(const run *r, sb_status status, sb_error *error)
 {
-    if (r->scene->render.camera_count == 0 || r->pictures.count <= 1 || !r->scene->render.video) return SB_OK;
+    if (r->scene->render.camera_count == 0 || r->pictures.film.count <= 1 || !r->scene->render.video) return SB_OK;
     if (status == SB_INTERRUPTED) {
         sb_runlog_event(r->log, "skipped", "films: the run was stopped; they are made when it is resumed and ends");
         return SB_OK;
     }
     for (size_t c = 0; c < r->scene->render.camera_count && !sb_stop_signal(); c++)
-        sb_video_write(r->directory, r->scene->render.cameras[c].name, r->pictures.count, r->scene->render.video_rate,
-                       r->log);
+        sb_video_write(r->directory, r->scene->render.cameras[c].name, r->pictures.film.count,
+                       r->scene->render.video_rate, r->log);
     return sb_stop_signal()
                ? sb_stop_fail(error,
                               "while films were made; all other files are complete, and --resume makes the films")

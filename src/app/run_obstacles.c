@@ -76,19 +76,27 @@ static sb_status check_folder(const run *r, const char *name, sb_error *error)
     return SB_OK;
 }
 
+/* Checks a folder of pictures, and the folder of each camera in it. */
+static sb_status check_cameras(const run *r, const char *folder, sb_error *error)
+{
+    sb_status status = r->scene->render.camera_count > 0 ? check_folder(r, folder, error) : SB_OK;
+    for (size_t c = 0; status == SB_OK && c < r->scene->render.camera_count; c++) {
+        char name[128];
+        snprintf(name, sizeof name, "%s/%s", folder, r->scene->render.cameras[c].name);
+        status = check_folder(r, name, error);
+    }
+    return status;
+}
+
 sb_status sb_run_check_folders(const run *r, sb_error *error)
 {
     const sb_scene *scene = r->scene;
-    const bool draws = scene->render.interval > 0 && scene->render.camera_count > 0;
+    const bool film = scene->render.interval > 0, stills = scene->render.still_count > 0;
     sb_status status = SB_OK;
     if (scene->output.particle_interval > 0) status = check_folder(r, SB_PARTICLE_FOLDER, error);
     if (status == SB_OK && scene->measure.map.present) status = check_folder(r, "maps", error);
     if (status == SB_OK && scene->output.plots) status = check_folder(r, "plots", error);
-    if (status == SB_OK && draws) status = check_folder(r, "frames", error);
-    for (size_t c = 0; status == SB_OK && draws && c < scene->render.camera_count; c++) {
-        char name[128];
-        snprintf(name, sizeof name, "frames/%s", scene->render.cameras[c].name);
-        status = check_folder(r, name, error);
-    }
+    if (status == SB_OK && film) status = check_cameras(r, "frames", error);
+    if (status == SB_OK && stills) status = check_cameras(r, "stills", error);
     return status;
 }

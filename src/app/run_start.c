@@ -117,18 +117,13 @@ static sb_status start_streamer(run *r, sb_error *error)
     return status;
 }
 
-static bool draws(const sb_scene *scene)
-{
-    return scene->render.interval > 0 && scene->render.camera_count > 0;
-}
-
 static void note_off(run *r)
 {
     const sb_scene *scene = r->scene;
     size_t n = 0;
     if (!scene->stream.enabled) r->off[n++].what = "stream: off, no LCM thread";
     if (!(scene->output.particle_interval > 0)) r->off[n++].what = "particle files: off, no thread";
-    if (!draws(scene))
+    if (!sb_scene_draws(scene))
         r->off[n++] = (sb_skipped){"pictures: off, no thread, no graphics memory", 0, sb_room_graphics()};
     else if (!scene->render.video)
         r->off[n++].what = "films: off, pictures are not joined";
@@ -152,19 +147,20 @@ static sb_status start_consumers(run *r, sb_error *error)
         status = sb_consumer_start(&r->consumers[RECORDER], &work, scene->output.particle_interval, waiting,
                                    SB_QUEUE_WAIT, error);
     }
-    if (status == SB_OK && draws(scene)) {
+    if (status == SB_OK && sb_scene_draws(scene)) {
         sb_consumer_work work = sb_pictures_work(&r->pictures);
-        status =
-            sb_consumer_start(&r->consumers[PICTURES], &work, scene->render.interval, waiting, SB_QUEUE_WAIT, error);
+        /* Without a film the interval is not used: the times are those of picture_times. */
+        const double interval = scene->render.interval > 0 ? scene->render.interval : 1;
+        status = sb_consumer_start(&r->consumers[PICTURES], &work, interval, waiting, SB_QUEUE_WAIT, error);
     }
     for (int c = 0; c < CONSUMERS; c++) r->consumers[c].next = r->due[c];
+    r->consumers[PICTURES].next = sb_picture_times_next(&r->picture_times);
     return status;
 }
 
 static void name_consumers(run *r)
 {
     r->recorder = (sb_recorder){.directory = r->directory, .format = sb_particle_formats[0]};
-    r->pictures = (sb_pictures){.scene = r->scene, .model = &r->model, .directory = r->directory, .camera = -1};
     r->streamer = (sb_streamer){.log = r->log};
 }
 
@@ -186,7 +182,9 @@ static sb_status build_model(run *r, bool resume, sb_error *error)
  * removed. */
 static sb_status make_simulation(run *r, bool resume, sb_error *error)
 {
-    sb_status status = sb_sim_create(r->scene, &r->model, &r->sim, error);
+    r->picture_times.render = &r->scene->render;
+    sb_status status = sb_pictures_begin(&r->pictures, r->scene, &r->model, r->directory, error);
+    if (status == SB_OK) status = sb_sim_create(r->scene, &r->model, &r->sim, error);
     if (status == SB_OK && !resume) status = sb_sim_check_start(r->sim, error);
     return status == SB_OK ? sb_run_check_folders(r, error) : status;
 }
@@ -278,7 +276,7 @@ static sb_status begin(run *r, sb_error *error)
     r->first_energy = sb_sim_energy(r->sim);
     status = sb_csv_open(r->directory, r->scene, &r->model, &r->csv, error);
     if (status == SB_OK) status = sb_csv_write(r->csv, sb_measure_latest(r->measure), error);
-    return status;
+    return status == SB_OK ? sb_insets_add(&r->pictures.insets, sb_measure_latest(r->measure), error) : status;
 }
 
 /* Frees the simulation, so that the end of the run writes no report and the files stay as they are. */

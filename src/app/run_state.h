@@ -5,6 +5,7 @@
 #include "app/build.h"
 #include "app/consumers.h"
 #include "app/helper.h"
+#include "app/picture_times.h"
 #include "app/run_files.h"
 #include "measure/measure.h"
 #include "output/csv.h"
@@ -54,8 +55,7 @@ typedef struct sb_steering {
 /* Pictures that commands request. */
 typedef struct sb_requested {
     sb_consumer consumer;
-    sb_scene scene; /* the run's, with one more camera; without cameras: no picture was requested yet */
-    sb_camera_key view;
+    sb_poses poses; /* of the scene's cameras, and of the view that a command gives; empty: no picture was requested */
     sb_renderer *renderer;
     sb_image image;
     /* Of the picture that is being drawn: */
@@ -78,6 +78,7 @@ typedef struct run {
     sb_progress progress;
     sb_recorder recorder;
     sb_pictures pictures;
+    sb_picture_times picture_times;
     sb_streamer streamer;
     sb_consumer consumers[CONSUMERS]; /* those that the scene requests are started */
     double due[CONSUMERS];            /* simulated time of their first frames, s */

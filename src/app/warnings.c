@@ -31,9 +31,21 @@ static void warn_of_reflections(const sb_scene *scene, sb_warning_visit *visit, 
     }
 }
 
+/* The times are in increasing order: the last one decides. */
+static void warn_of_stills(const sb_scene *scene, sb_warning_visit *visit, void *context)
+{
+    const sb_render_settings *render = &scene->render;
+    char text[200];
+    if (render->still_count == 0 || render->stills[render->still_count - 1].time <= scene->duration) return;
+    snprintf(text, sizeof text, "render.stills: %g s is after the end of the run at %g s: it has no still",
+             render->stills[render->still_count - 1].time, scene->duration);
+    visit(context, text);
+}
+
 void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
     char text[256];
+    warn_of_stills(scene, visit, context);
     for (size_t w = 0; w < scene->wavemaker_count; w++) {
         const sb_wavemaker_parameters *law = &scene->wavemakers[w].law;
         if (isinf(law->start) && !scene->control.enabled) {

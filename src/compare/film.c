@@ -15,10 +15,11 @@ const char *sb_film_camera(const sb_comparison *comparison, size_t *groups)
     for (size_t k = 0; k < scene->render.camera_count; k++) {
         size_t with = 0;
         for (size_t g = 0; g < *groups; g++) {
-            sb_pictures list;
-            sb_pictures_list(&comparison->runs[comparison->group[g].first].run, scene->render.cameras[k].name, &list);
+            sb_stored_pictures list;
+            sb_stored_pictures_list(&comparison->runs[comparison->group[g].first].run, scene->render.cameras[k].name,
+                                    &list);
             with += list.count > 0 && list.numbers[list.count - 1] == list.count;
-            sb_pictures_free(&list);
+            sb_stored_pictures_free(&list);
         }
         if (with == *groups) return scene->render.cameras[k].name;
     }

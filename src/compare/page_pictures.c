@@ -24,12 +24,12 @@ static void put_row(FILE *out, const sb_compare_page *page, const char *camera, 
     const sb_comparison *c = page->comparison;
     fputs("<div class=\"beside\">", out);
     for (size_t g = 0; g < groups; g++) {
-        sb_pictures list;
-        sb_pictures_list(&c->runs[c->group[g].first].run, camera, &list);
+        sb_stored_pictures list;
+        sb_stored_pictures_list(&c->runs[c->group[g].first].run, camera, &list);
         if (list.count > 0)
-            sb_pictures_put(out, &list, sb_pictures_nearest(&list, time), PICTURE_WIDTH, PICTURE_BYTES,
-                            c->group[g].label);
-        sb_pictures_free(&list);
+            sb_stored_pictures_put(out, &list, sb_stored_pictures_nearest(&list, time), PICTURE_WIDTH, PICTURE_BYTES,
+                                   c->group[g].label);
+        sb_stored_pictures_free(&list);
     }
     fputs("</div>\n", out);
 }

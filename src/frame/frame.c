@@ -1,4 +1,4 @@
-/* Creates frames and counts the references to them. */
+/* Creates frames, carries them to another time, and counts the references to them. */
 #include "frame/frame.h"
 
 #include "base/memory.h"
@@ -32,6 +32,16 @@ sb_frame *sb_frame_create(size_t count, size_t body_count)
     }
     frame->references = 1;
     return frame;
+}
+
+void sb_frame_carry(sb_frame *frame, double time)
+{
+    const double dt = time - frame->status.time;
+    const float step = (float)dt;
+    for (size_t k = 0; k < 3 * frame->count; k++) frame->position[k] += frame->velocity[k] * step;
+    for (size_t b = 0; b < frame->body_count; b++)
+        frame->bodies[b].displacement = sb_madd(frame->bodies[b].displacement, dt, frame->bodies[b].velocity);
+    frame->status.time = time;
 }
 
 /* The reference count is the only part of a published frame that changes, hence the casts. */

@@ -13,6 +13,7 @@
 typedef struct sb_frame_body {
     char name[64];
     sb_vec3 displacement;  /* m since t = 0 */
+    sb_vec3 velocity;      /* m/s in the last step; 0 if it is not known */
     sb_vec3 force, moment; /* N, Nm: mean over the last finished interval */
     bool report;           /* forces on this body are reported to the user */
 } sb_frame_body;
@@ -27,10 +28,13 @@ typedef struct sb_frame_status {
     uint64_t lost_particles;
 } sb_frame_status;
 
+enum { SB_FRAME_FILM = 1, SB_FRAME_STILL = 2 };
+
 /* Read-only once published. The arrays have one entry (or 3 floats) per particle; positions are relative to origin. */
 typedef struct sb_frame {
     sb_frame_status status;
     uint64_t index;  /* 1, 2, ... over all frames of the run, for all consumers together */
+    unsigned drawn;  /* SB_FRAME_FILM and SB_FRAME_STILL: what is drawn of it; 0: a picture of the film */
     sb_vec3 origin;  /* m, added to every position */
     double spacing;  /* m */
     size_t count;    /* fluid particles */
@@ -42,6 +46,10 @@ typedef struct sb_frame {
     sb_frame_body *bodies;
     _Atomic int references;
 } sb_frame;
+
+/* Carries the particles and bodies of a frame that is not published yet from the end of its step to `time` within that
+   step, along their velocities, as the step moved them. Velocities and pressures stay those of the step. */
+void sb_frame_carry(sb_frame *frame, double time);
 
 /* Creates a frame with all arrays allocated and one reference; the caller fills the arrays. NULL if memory runs out. */
 sb_frame *sb_frame_create(size_t count, size_t body_count);

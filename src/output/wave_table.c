@@ -21,7 +21,8 @@ static void take_rows(const sb_series *series, const char *gauge, double start, 
     rows->count = 0;
     for (size_t i = 0; i < series->row_count; i++) {
         const sb_series_row *row = &series->rows[i];
-        if (strcmp(series->names[row->name], gauge) != 0 || row->values[TIME] < start || isnan(row->values[Z])) continue;
+        if (strcmp(series->names[row->name], gauge) != 0 || row->values[TIME] < start || isnan(row->values[Z]))
+            continue;
         rows->t[rows->count] = row->values[TIME];
         rows->z[rows->count++] = row->values[Z];
     }
@@ -54,8 +55,8 @@ static void put(FILE *stream, double value)
 static void put_row(FILE *stream, const char *gauge, const sb_gauge_waves *waves)
 {
     const sb_wave_heights *h = &waves->heights;
-    const double values[] = {waves->from, waves->to, (double)h->count, h->level, h->mean, h->significant, h->highest,
-                             h->period, h->spectral};
+    const double values[] = {waves->from,    waves->to,  (double)h->count, h->level,   h->mean,
+                             h->significant, h->highest, h->period,        h->spectral};
     fputs(gauge, stream);
     for (size_t k = 0; k < sizeof values / sizeof *values; k++) put(stream, values[k]);
     for (int k = 0; k < SB_WAVE_HARMONICS; k++) put(stream, waves->harmonic[k]);

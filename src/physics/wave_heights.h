@@ -9,10 +9,10 @@
 /* Of waves between upward crossings of the series' mean. NaN where there are none. */
 typedef struct sb_wave_heights {
     size_t count;
-    double level;                        /* m, mean of the series */
-    double mean, significant, highest;   /* m: of all heights, of the highest third, of the highest wave */
-    double period;                       /* s, mean */
-    double spectral;                     /* m, four standard deviations of the series */
+    double level;                      /* m, mean of the series */
+    double mean, significant, highest; /* m: of all heights, of the highest third, of the highest wave */
+    double period;                     /* s, mean */
+    double spectral;                   /* m, four standard deviations of the series */
 } sb_wave_heights;
 
 /* n elevations z in m at increasing times t in s. Crossings are interpolated linearly. Fails only without memory. */

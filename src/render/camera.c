@@ -24,19 +24,63 @@ static void to_numbers(const sb_camera_key *key, double out[NUMBERS])
 
 static sb_camera_key from_numbers(double time, const double n[NUMBERS])
 {
-    return (sb_camera_key){time, sb_vec(n[0], n[1], n[2]), sb_vec(n[3], n[4], n[5]), n[6]};
+    return (sb_camera_key){
+        .time = time, .eye = sb_vec(n[0], n[1], n[2]), .target = sb_vec(n[3], n[4], n[5]), .fov = n[6]};
 }
 
-/* Slopes at key k: the difference of the neighbouring keys over their time difference; zero at both ends. */
+/* Adds `weight` times the mean velocity from key k to the next one. */
+static void add_velocity(const sb_camera *camera, size_t k, double weight, double out[NUMBERS])
+{
+    double a[NUMBERS], b[NUMBERS];
+    to_numbers(&camera->keys[k], a);
+    to_numbers(&camera->keys[k + 1], b);
+    const double span = camera->keys[k + 1].time - camera->keys[k].time;
+    for (int i = 0; i < NUMBERS; i++) out[i] += weight * (b[i] - a[i]) / span;
+}
+
+/* The velocity at the end of a motion that is not smooth, over its mean. */
+static double end_velocity(sb_ease ease, bool at_start)
+{
+    if (ease == SB_EASE_LINEAR) return 1;
+    return (ease == SB_EASE_IN) == at_start ? 0 : 2;
+}
+
+/* Velocity at key k of the smooth motions beside it: that of the motion on its other side if that one is not smooth,
+   the difference of the neighbouring keys over their time difference between two smooth ones, zero at both ends. */
 static void slopes(const sb_camera *camera, size_t k, double out[NUMBERS])
 {
+    const sb_camera_key *keys = camera->keys;
     memset(out, 0, NUMBERS * sizeof *out);
     if (k == 0 || k + 1 == camera->key_count) return;
-    double before[NUMBERS], after[NUMBERS];
-    to_numbers(&camera->keys[k - 1], before);
-    to_numbers(&camera->keys[k + 1], after);
-    double span = camera->keys[k + 1].time - camera->keys[k - 1].time;
-    for (int i = 0; i < NUMBERS; i++) out[i] = (after[i] - before[i]) / span;
+    const double before = keys[k].time - keys[k - 1].time, after = keys[k + 1].time - keys[k].time;
+    if (keys[k - 1].ease != SB_EASE_SMOOTH) {
+        add_velocity(camera, k - 1, end_velocity(keys[k - 1].ease, false), out);
+    } else if (keys[k].ease != SB_EASE_SMOOTH) {
+        add_velocity(camera, k, end_velocity(keys[k].ease, true), out);
+    } else {
+        add_velocity(camera, k - 1, before / (before + after), out);
+        add_velocity(camera, k, after / (before + after), out);
+    }
+}
+
+/* The smooth motion from key k to the next one, at the fraction s of its time: a cubic Hermite polynomial. */
+static void move_smoothly(const sb_camera *camera, size_t k, double s, double mixed[NUMBERS])
+{
+    double a[NUMBERS], b[NUMBERS], slope_a[NUMBERS], slope_b[NUMBERS];
+    const double span = camera->keys[k + 1].time - camera->keys[k].time;
+    to_numbers(&camera->keys[k], a);
+    to_numbers(&camera->keys[k + 1], b);
+    slopes(camera, k, slope_a);
+    slopes(camera, k + 1, slope_b);
+    const double rise = s * s * (3 - 2 * s), out = s * (1 - s) * (1 - s), in = s * s * (s - 1);
+    for (int i = 0; i < NUMBERS; i++)
+        mixed[i] = a[i] + (b[i] - a[i]) * rise + span * (slope_a[i] * out + slope_b[i] * in);
+}
+
+static double eased(sb_ease ease, double s)
+{
+    if (ease == SB_EASE_IN) return s * s;
+    return ease == SB_EASE_OUT ? s * (2 - s) : s;
 }
 
 sb_camera_key sb_camera_at(const sb_camera *camera, double time)
@@ -46,15 +90,12 @@ sb_camera_key sb_camera_at(const sb_camera *camera, double time)
     if (time <= keys[0].time || last == 0) return keys[0];
     if (time >= keys[last].time) return keys[last];
     while (keys[k + 1].time <= time) k++;
-    double span = keys[k + 1].time - keys[k].time, s = (time - keys[k].time) / span;
-    double a[NUMBERS], b[NUMBERS], slope_a[NUMBERS], slope_b[NUMBERS], mixed[NUMBERS];
+    const double s = (time - keys[k].time) / (keys[k + 1].time - keys[k].time), part = eased(keys[k].ease, s);
+    double a[NUMBERS], b[NUMBERS], mixed[NUMBERS];
     to_numbers(&keys[k], a);
     to_numbers(&keys[k + 1], b);
-    slopes(camera, k, slope_a);
-    slopes(camera, k + 1, slope_b);
-    double rise = s * s * (3 - 2 * s), out = s * (1 - s) * (1 - s), in = s * s * (s - 1);
-    for (int i = 0; i < NUMBERS; i++)
-        mixed[i] = a[i] + (b[i] - a[i]) * rise + span * (slope_a[i] * out + slope_b[i] * in);
+    for (int i = 0; i < NUMBERS; i++) mixed[i] = a[i] + (b[i] - a[i]) * part;
+    if (keys[k].ease == SB_EASE_SMOOTH) move_smoothly(camera, k, s, mixed);
     sb_camera_key key = from_numbers(time, mixed);
     /* The spline may overshoot its keys; the angle must stay within 0 and 180 degrees. */
     key.fov = key.fov < 1 ? 1 : key.fov > 170 ? 170 : key.fov;

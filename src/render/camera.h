@@ -5,9 +5,10 @@
 #include "base/vec.h"
 #include "scene/scene.h"
 
-/* Returns the camera at `time`. Before the first key and after the last key the camera is at rest. Between them it
-   moves with continuous velocity (cubic Hermite interpolation with Catmull-Rom slopes, at rest at both ends). The keys
-   must be ordered in time; key_count >= 1. */
+/* Returns a camera with keys at `time`. Before the first key and after the last key the camera is at rest. From key to
+   key it moves by the `ease` of the first: smoothly (cubic Hermite interpolation with Catmull-Rom slopes, at rest at
+   both ends, and with the velocity of a neighbour that is not smooth), with constant velocity, or with constant
+   acceleration from rest or to rest. The keys must be ordered in time; key_count >= 1. */
 sb_camera_key sb_camera_at(const sb_camera *camera, double time);
 
 /* A view of the box [min, max] (m, scene) by a camera whose fov (degrees) is the vertical angle. */

@@ -15,10 +15,10 @@ static int by_number(const void *a, const void *b)
     return (one > other) - (one < other);
 }
 
-void sb_pictures_list(const sb_report_run *run, const char *camera, sb_pictures *list)
+void sb_stored_pictures_list(const sb_report_run *run, const char *camera, sb_stored_pictures *list)
 {
     char name[SB_NAME_MAX + 16];
-    *list = (sb_pictures){.camera = camera};
+    *list = (sb_stored_pictures){.camera = camera};
     if (!run->has_scene) return;
     list->interval = run->scene.render.interval;
     snprintf(name, sizeof name, "frames/%s", camera);
@@ -34,26 +34,26 @@ void sb_pictures_list(const sb_report_run *run, const char *camera, sb_pictures 
     if (list->count > 1) qsort(list->numbers, list->count, sizeof *list->numbers, by_number);
 }
 
-void sb_pictures_free(sb_pictures *list)
+void sb_stored_pictures_free(sb_stored_pictures *list)
 {
     sb_free(list->numbers);
-    *list = (sb_pictures){0};
+    *list = (sb_stored_pictures){0};
 }
 
-double sb_pictures_time(const sb_pictures *list, size_t i)
+double sb_stored_pictures_time(const sb_stored_pictures *list, size_t i)
 {
     return (double)(list->numbers[i] - 1) * list->interval;
 }
 
-size_t sb_pictures_nearest(const sb_pictures *list, double time)
+size_t sb_stored_pictures_nearest(const sb_stored_pictures *list, double time)
 {
     size_t best = 0;
     for (size_t i = 1; i < list->count; i++)
-        if (fabs(sb_pictures_time(list, i) - time) < fabs(sb_pictures_time(list, best) - time)) best = i;
+        if (fabs(sb_stored_pictures_time(list, i) - time) < fabs(sb_stored_pictures_time(list, best) - time)) best = i;
     return best;
 }
 
-static sb_status read_picture(const sb_pictures *list, size_t i, sb_image *image, sb_error *error)
+static sb_status read_picture(const sb_stored_pictures *list, size_t i, sb_image *image, sb_error *error)
 {
     char name[32], path[SB_PATH_MAX];
     snprintf(name, sizeof name, "%06lu.png", list->numbers[i]);
@@ -75,13 +75,14 @@ static sb_status encode_within(const sb_image *image, int width, size_t most, sb
     }
 }
 
-void sb_pictures_put(FILE *out, const sb_pictures *list, size_t i, int width, size_t most, const char *label)
+void sb_stored_pictures_put(FILE *out, const sb_stored_pictures *list, size_t i, int width, size_t most,
+                            const char *label)
 {
     sb_image image = {0}, small = {0};
     sb_error error = {0};
     unsigned char *bytes = NULL;
     size_t size = 0;
-    const double time = sb_pictures_time(list, i);
+    const double time = sb_stored_pictures_time(list, i);
     sb_status status = read_picture(list, i, &image, &error);
     if (status == SB_OK) status = encode_within(&image, width, most, &small, &bytes, &size, &error);
     fputs("<figure>", out);

@@ -8,12 +8,12 @@
 
 enum { LEAD_BYTES = 450000, STRIP_BYTES = 600000, STRIP = 6 };
 
-static void put_lead(FILE *out, const sb_report_page *page, const sb_pictures *list)
+static void put_lead(FILE *out, const sb_report_page *page, const sb_stored_pictures *list)
 {
     const bool loaded = page->loads->reached > 0;
     const double time = loaded ? page->loads->loads[0].horizontal_time : sb_report_reached(page->run);
     fputs("<div class=\"lead\">", out);
-    sb_pictures_put(out, list, sb_pictures_nearest(list, time), 1000, LEAD_BYTES, NULL);
+    sb_stored_pictures_put(out, list, sb_stored_pictures_nearest(list, time), 1000, LEAD_BYTES, NULL);
     if (loaded)
         sb_html_put(out,
                     "<p class=\"note\">The picture nearest to %g s, when the horizontal force on %s is greatest.</p>",
@@ -21,11 +21,11 @@ static void put_lead(FILE *out, const sb_report_page *page, const sb_pictures *l
     fputs("</div>\n", out);
 }
 
-static void put_strip(FILE *out, const sb_pictures *list, size_t shown, size_t most)
+static void put_strip(FILE *out, const sb_stored_pictures *list, size_t shown, size_t most)
 {
     if (shown > list->count) shown = list->count;
     for (size_t k = 0; k < shown; k++)
-        sb_pictures_put(out, list, shown > 1 ? k * (list->count - 1) / (shown - 1) : 0, 480, most, NULL);
+        sb_stored_pictures_put(out, list, shown > 1 ? k * (list->count - 1) / (shown - 1) : 0, 480, most, NULL);
 }
 
 /* Writes the film of the first camera that has one; false: there is none. */
@@ -45,7 +45,7 @@ static bool put_film(FILE *out, const sb_report_page *page)
     return false;
 }
 
-static void put_cameras(FILE *out, const sb_report_page *page, const sb_pictures lists[2], size_t cameras)
+static void put_cameras(FILE *out, const sb_report_page *page, const sb_stored_pictures lists[2], size_t cameras)
 {
     const size_t all = page->run->scene.render.camera_count;
     put_lead(out, page, &lists[0]);
@@ -58,14 +58,14 @@ static void put_cameras(FILE *out, const sb_report_page *page, const sb_pictures
 void sb_section_pictures(FILE *out, const sb_report_page *page)
 {
     const sb_report_run *run = page->run;
-    sb_pictures lists[2] = {{0}};
+    sb_stored_pictures lists[2] = {{0}};
     size_t cameras = 0;
     for (size_t c = 0; run->has_scene && c < run->scene.render.camera_count && cameras < 2; c++) {
-        sb_pictures_list(run, run->scene.render.cameras[c].name, &lists[cameras]);
+        sb_stored_pictures_list(run, run->scene.render.cameras[c].name, &lists[cameras]);
         if (lists[cameras].count > 0)
             cameras++;
         else
-            sb_pictures_free(&lists[cameras]);
+            sb_stored_pictures_free(&lists[cameras]);
     }
     fputs("<section id=\"pictures\"><h2>The event</h2>\n", out);
     if (cameras == 0) fputs("<p class=\"note\">The run has no pictures.</p>", out);
@@ -73,5 +73,5 @@ void sb_section_pictures(FILE *out, const sb_report_page *page)
     if (page->film && !(run->has_scene && put_film(out, page)))
         fputs("<p class=\"missing\">The run has no film: render.video and ffmpeg make one.</p>", out);
     fputs("</section>\n", out);
-    for (size_t c = 0; c < cameras; c++) sb_pictures_free(&lists[c]);
+    for (size_t c = 0; c < cameras; c++) sb_stored_pictures_free(&lists[c]);
 }

@@ -28,6 +28,9 @@ sb_status sb_reader_block(sb_reader *reader, const sb_yaml *map, const sb_table 
 /* Refuses an interval that fits too often into the run's duration. 0 (off) is allowed. */
 sb_status sb_reader_interval(sb_reader *reader, const sb_yaml *map, const char *key, double interval);
 
+/* Refuses the name of a body that the scene does not have, and names the most similar one. */
+sb_status sb_reader_no_body(sb_reader *reader, const sb_yaml *map, const char *key, const char *name);
+
 /* Applies --set KEY=VALUE to the tree. */
 sb_status sb_override_apply(sb_yaml *root, const sb_override *override, sb_error *error);
 

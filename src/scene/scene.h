@@ -333,16 +333,60 @@ typedef struct sb_offshore_settings {
     sb_initial_wave wave;
 } sb_offshore_settings;
 
+/* How a camera moves from a key of its path to the next one. */
+typedef enum sb_ease { SB_EASE_SMOOTH, SB_EASE_LINEAR, SB_EASE_IN, SB_EASE_OUT } sb_ease;
+
 typedef struct sb_camera_key {
     double time;
     sb_vec3 eye, target;
     double fov;
+    sb_ease ease;
 } sb_camera_key;
+
+typedef enum sb_camera_kind { SB_CAMERA_KEYS, SB_CAMERA_FOLLOW, SB_CAMERA_ORBIT, SB_CAMERA_CLOSEUP } sb_camera_kind;
+
+/* A camera that follows the highest water along the line from (ax, ay) to (bx, by). */
+typedef struct sb_follow {
+    unsigned what; /* 0: the crest */
+    double ax, ay, bx, by;
+    double width;     /* m, of the strip along the line whose water counts; 0: all water */
+    double smoothing; /* s */
+    bool travel;      /* the eye moves with the target */
+} sb_follow;
+
+/* A circle about a vertical axis. */
+typedef struct sb_orbit {
+    sb_vec3 target;
+    double radius, height; /* m; height of the eye above the target */
+    double period;         /* s per turn, counter-clockwise seen from above if > 0 */
+    double turns;          /* only while a scene is read: over the run's duration, from which the period follows */
+    double from;           /* degrees from +x, at t = 0 */
+} sb_orbit;
+
 typedef struct sb_camera {
     char name[SB_NAME_MAX];
-    size_t key_count; /* 1: fixed; more: a path, smooth between keys in time */
+    sb_camera_kind kind;
+    size_t key_count; /* 1: fixed, or follows; more: a path through keys in time; 0: the other kinds */
     sb_camera_key *keys;
+    double fov; /* degrees; of a path, those of its keys instead */
+    sb_follow follow;
+    sb_orbit orbit;
+    char body[SB_NAME_MAX]; /* close-up: it fills the picture */
+    sb_vec3 direction;      /* from the body to the eye, of any length */
+    double margin;          /* distance, over that at which the body's box just fits */
 } sb_camera;
+
+/* A picture of a size of its own at one time. */
+typedef struct sb_still {
+    double time;
+} sb_still;
+
+/* A plot in each picture: the force on a body along an axis, or the water level at a gauge. */
+typedef struct sb_inset {
+    char force[SB_NAME_MAX]; /* the body; empty: a gauge */
+    unsigned axis;           /* 0, 1, 2 */
+    char gauge[SB_NAME_MAX];
+} sb_inset;
 
 typedef struct sb_render_settings {
     double interval;   /* s between pictures; 0: off */
@@ -350,6 +394,11 @@ typedef struct sb_render_settings {
     double speed_max;  /* m/s at the top of the colour map; 0: 2 sqrt(g D) of the scene */
     int video_rate;    /* pictures per second of video */
     bool video;        /* join pictures to <camera>.mp4 if ffmpeg is installed */
+    size_t still_count;
+    sb_still *stills;              /* in increasing order */
+    int still_width, still_height; /* px */
+    size_t inset_count;
+    sb_inset *insets;
     size_t camera_count;
     sb_camera *cameras;
 } sb_render_settings;
@@ -408,6 +457,12 @@ typedef struct sb_scene {
     sb_output_settings output;
 } sb_scene;
 
+/* Whether a run of the scene draws pictures. */
+static inline bool sb_scene_draws(const sb_scene *scene)
+{
+    return (scene->render.interval > 0 || scene->render.still_count > 0) && scene->render.camera_count > 0;
+}
+
 /* Whether water of a given sea comes in and goes out through a side. */
 static inline bool sb_scene_sea_side(const sb_scene *scene, int side)
 {
@@ -426,6 +481,9 @@ static inline bool sb_scene_repeats(const sb_scene *scene, int axis)
 {
     return scene->domain.side[2 * axis] == SB_SIDE_PERIODIC && !(scene->dimensions == 2 && axis == 1);
 }
+
+/* Whether a body may have this name. The names of a split mesh are known only when its file is read. */
+bool sb_scene_may_have_body(const sb_scene *scene, const char *name);
 
 /* Index of the gauge of that name; gauge_count if there is none. */
 size_t sb_scene_gauge(const sb_scene *scene, const char *name);

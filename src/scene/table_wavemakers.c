@@ -1,3 +1,4 @@
+#include "base/nearest.h"
 #include "scene/reader.h"
 
 #include <math.h>
@@ -87,12 +88,20 @@ static const sb_key keys[] = {
 };
 /* clang-format on */
 
-/* The names of a split mesh are known only when its file is read; the model checks those. */
-static bool body_may_exist(const sb_scene *scene, const char *name)
+bool sb_scene_may_have_body(const sb_scene *scene, const char *name)
 {
     for (size_t i = 0; i < scene->body_count; i++)
         if (scene->bodies[i].split || strcmp(scene->bodies[i].name, name) == 0) return true;
     return false;
+}
+
+sb_status sb_reader_no_body(sb_reader *reader, const sb_yaml *map, const char *key, const char *name)
+{
+    sb_nearest nearest = sb_nearest_to(name);
+    for (size_t i = 0; i < reader->scene->body_count; i++) sb_nearest_try(&nearest, reader->scene->bodies[i].name);
+    return sb_reader_fail(reader, map, key, "no body is named %s, %s%s%s", name,
+                          nearest.found ? "did you mean " : "expected the name of a body",
+                          nearest.found ? nearest.found : "", nearest.found ? "?" : "");
 }
 
 /* A paddle must not move through periodic sides: it would enter again at the other side, into its own wake. */
@@ -112,7 +121,7 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_wavemaker_use *use = item;
     const sb_scene *scene = reader->scene;
-    if (!body_may_exist(scene, use->body))
+    if (!sb_scene_may_have_body(scene, use->body))
         return sb_reader_fail(reader, map, "body", "no body is named %s, expected the name of a body", use->body);
     for (const sb_wavemaker_use *other = scene->wavemakers; other < use; other++)
         if (strcmp(other->body, use->body) == 0)

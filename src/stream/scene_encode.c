@@ -77,8 +77,11 @@ static bool set_lists(shorebreak_scene_t *to, const sb_scene *scene, const sb_mo
     if (!to->bodies || !to->cameras || !to->gauges || !to->wavemaker_names) return false;
     for (; (size_t)to->body_count < model->body_count; to->body_count++)
         if (!set_body(&to->bodies[to->body_count], &model->bodies[to->body_count], scene->domain.min)) return false;
-    for (; (size_t)to->camera_count < scene->render.camera_count; to->camera_count++)
-        if (!set_camera(&to->cameras[to->camera_count], &scene->render.cameras[to->camera_count])) return false;
+    /* Subscribers know cameras with keys only. */
+    for (size_t c = 0; c < scene->render.camera_count; c++) {
+        if (scene->render.cameras[c].key_count == 0) continue;
+        if (!set_camera(&to->cameras[to->camera_count++], &scene->render.cameras[c])) return false;
+    }
     for (; (size_t)to->gauge_count < measure->gauge_count; to->gauge_count++) {
         const sb_gauge *gauge = &measure->gauges[to->gauge_count];
         to->gauges[to->gauge_count] = (shorebreak_gauge_t){.name = text(gauge->name), .x = gauge->x, .y = gauge->y};

@@ -282,7 +282,7 @@ static void only_the_surface_is_visible(void **state)
 {
     (void)state;
     sb_frame *frame = block(40, 40);
-    sb_camera_key key = {0, {10, 10, 60}, {10, 10, 0}, 60};
+    sb_camera_key key = {.eye = {10, 10, 60}, .target = {10, 10, 0}, .fov = 60};
     sb_view view = sb_view_create(&key, 1, sb_vec(0, 0, 0), sb_vec(20, 20, 20));
     sb_visible visible = {0};
     sb_error error = {0};

@@ -42,6 +42,8 @@ sb_frame *sb_sim_snapshot(const sb_sim *sim)
         sb_frame_body *body = &frame->bodies[b];
         snprintf(body->name, sizeof body->name, "%s", model->bodies[b].name);
         body->displacement = sb_sim_body_displacement(sim, b);
+        const uint32_t m = sim->walls.moving_of_body[b];
+        if (m != UINT32_MAX) body->velocity = sim->walls.moving[m].velocity;
         body->report = model->bodies[b].report;
     }
     frame->status = (sb_frame_status){

@@ -1,0 +1,191 @@
+/* The keys of cameras: fixed, along a path, following the water, on a circle, or close to a body. */
+#include "scene/table_cameras.h"
+
+#include <math.h>
+
+static const char *const ease_names[] = {"smooth", "linear", "in", "out", NULL};
+static const char *const follow_names[] = {"crest", NULL};
+
+/* clang-format off */
+static const sb_key path_keys[] = {
+    {.name = "time", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera_key, time), .unit = "s",
+     SB_KEY_NOT_NEGATIVE, .flags = SB_KEY_REQUIRED,
+     .doc = "Time at which the camera is at this place; later than the previous entry."},
+    {.name = "eye", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_camera_key, eye), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED | SB_KEY_FULL, .doc = "Position of the camera."},
+    {.name = "target", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_camera_key, target), .unit = "m",
+     SB_KEY_ANY, .flags = SB_KEY_REQUIRED | SB_KEY_FULL, .doc = "Point at which the camera looks."},
+    {.name = "fov", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera_key, fov), .unit = "deg", .min = 1,
+     .max = 170, .fallback = "45", .doc = "Vertical angle of view."},
+    {.name = "ease", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_camera_key, ease), .words = ease_names, .fallback = "smooth",
+     .doc = "Motion from this place to the next one: `smooth`, without a jump of the velocity at either end; `linear`, "
+            "with constant velocity; `in`, from rest; `out`, to rest."},
+};
+/* clang-format on */
+
+static sb_status finish_view(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    const sb_camera_key *key = item;
+    if (sb_norm(sb_sub(key->target, key->eye)) > 0) return SB_OK;
+    return sb_reader_fail(reader, map, "target", "is the same point as eye, expected a different point");
+}
+
+static const sb_table path_table = {SB_KEY_ROWS(path_keys), .size = sizeof(sb_camera_key), .finish = finish_view};
+/* Eye and target of a fixed camera. */
+static const sb_table view_table = {.keys = path_keys + 1, .count = 2, .size = sizeof(sb_camera_key)};
+
+enum { GIVEN_PERIOD = 1, GIVEN_TURNS = 2 };
+
+/* A written scene has the period only, so that its circle does not depend on a duration that is changed later. */
+static unsigned orbit_variant(const void *item, const sb_yaml *map)
+{
+    (void)item;
+    return map && sb_yaml_child(map, "turns") ? GIVEN_TURNS : GIVEN_PERIOD;
+}
+
+/* clang-format off */
+static const sb_key orbit_keys[] = {
+    {.name = "target", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_orbit, target), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED | SB_KEY_FULL, .doc = "Point at which the camera looks; the circle's axis passes it."},
+    {.name = "radius", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_orbit, radius), .unit = "m", SB_KEY_POSITIVE | SB_KEY_REQUIRED,
+     .doc = "Radius of the circle."},
+    {.name = "height", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_orbit, height), .unit = "m", SB_KEY_ANY, .fallback = "0",
+     .doc = "Height of the circle above the target."},
+    {.name = "period", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_orbit, period), .unit = "s", SB_KEY_ANY,
+     .applies = GIVEN_PERIOD, .flags = SB_KEY_REQUIRED, .only = "an orbit without turns",
+     .doc = "Time of one turn, not 0; counter-clockwise seen from above, or clockwise if it is negative."},
+    {.name = "turns", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_orbit, turns), SB_KEY_ANY, .applies = GIVEN_TURNS,
+     .flags = SB_KEY_REQUIRED, .only = "an orbit without period",
+     .doc = "Number of turns in the run's duration, not 0, instead of the period. A run with another duration has "
+            "another circle, so it cannot be resumed to a later end."},
+    {.name = "from", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_orbit, from), .unit = "deg", SB_KEY_ANY, .fallback = "0",
+     .doc = "Direction from the target to the camera at t = 0: 0 is +x, 90 is +y."},
+};
+/* clang-format on */
+
+static sb_status finish_orbit(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    sb_orbit *orbit = item;
+    const bool turns = orbit_variant(orbit, map) == GIVEN_TURNS;
+    const char *key = turns ? "turns" : "period";
+    if (!(fabs(turns ? orbit->turns : orbit->period) > 0))
+        return sb_reader_fail(reader, map, key, "0, expected another number");
+    if (turns) orbit->period = reader->scene->duration / orbit->turns;
+    orbit->turns = 0; /* the period says it all: what is written and read again is the same */
+    if (!isfinite(orbit->period)) return sb_reader_fail(reader, map, key, "too small, expected a larger number");
+    return SB_OK;
+}
+
+static const sb_table orbit_table = {SB_KEY_ROWS(orbit_keys), .size = sizeof(sb_orbit), .variant = orbit_variant,
+                                     .finish = finish_orbit};
+
+enum { FIXED = 1, PATH = 2, FOLLOW = 4, ORBIT = 8, CLOSEUP = 16 };
+
+static unsigned camera_variant(const void *item, const sb_yaml *map)
+{
+    const sb_camera *camera = item;
+    static const unsigned kinds[] = {
+        [SB_CAMERA_FOLLOW] = FOLLOW, [SB_CAMERA_ORBIT] = ORBIT, [SB_CAMERA_CLOSEUP] = CLOSEUP};
+    if (!map && camera->kind != SB_CAMERA_KEYS) return kinds[camera->kind];
+    if (!map) return camera->key_count > 1 ? PATH : FIXED;
+    if (sb_yaml_child(map, "path")) return PATH;
+    if (sb_yaml_child(map, "orbit")) return ORBIT;
+    if (sb_yaml_child(map, "closeup")) return CLOSEUP;
+    return sb_yaml_child(map, "follow") ? FOLLOW : FIXED;
+}
+
+/* clang-format off */
+static const sb_key camera_keys[] = {
+    {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_camera, name), .flags = SB_KEY_REQUIRED,
+     .doc = "Unique name of the camera; its folder and film have this name."},
+    {.name = "path", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_camera, keys, key_count),
+     .table = &path_table, .applies = PATH, .only = "a moving camera", .derived = "a fixed camera",
+     .doc = "Path of a moving camera: two or more places with times."},
+    {.type = SB_KEY_LIST, SB_KEY_ITEMS(sb_camera, keys, key_count), .table = &view_table,
+     .applies = FIXED | FOLLOW, .only = "a camera without path, orbit or closeup"},
+    {.name = "fov", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera, fov), .unit = "deg", .min = 1, .max = 170,
+     .fallback = "45", .applies = FIXED | FOLLOW | ORBIT | CLOSEUP, .only = "a camera without path",
+     .doc = "Vertical angle of view."},
+    {.name = "follow", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_camera, follow.what), .words = follow_names,
+     .applies = FOLLOW, .derived = "the camera does not follow", .only = "a camera without path, orbit or closeup",
+     .doc = "`crest`: the target moves along a line with the highest water near it. `target` and `eye` are then those "
+            "for a crest beside `target`."},
+    {.name = "from", .type = SB_KEY_PLACE, SB_KEY_AT(sb_camera, follow.ax), .unit = "m", SB_KEY_ANY, .applies = FOLLOW,
+     .derived = "x of domain.min, middle in y", .only = "a camera that follows", .doc = "One end of the line, [x, y]; [x] in 2D."},
+    {.name = "to", .type = SB_KEY_PLACE, SB_KEY_AT(sb_camera, follow.bx), .unit = "m", SB_KEY_ANY, .applies = FOLLOW,
+     .derived = "x of domain.max, middle in y", .only = "a camera that follows", .doc = "The other end."},
+    {.name = "width", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera, follow.width), .unit = "m", SB_KEY_NOT_NEGATIVE,
+     .fallback = "0", .applies = FOLLOW, .only = "a camera that follows",
+     .doc = "Width of the strip along the line whose water counts; 0: all water beside the line."},
+    {.name = "smoothing", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera, follow.smoothing), .unit = "s",
+     SB_KEY_NOT_NEGATIVE, .applies = FOLLOW, .derived = "length of the line / (20 sqrt(g times the height of the domain))", .only = "a camera that follows",
+     .doc = "Time within which the camera follows a change; 0: at once."},
+    {.name = "travel", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_camera, follow.travel), .fallback = "false",
+     .applies = FOLLOW, .only = "a camera that follows", .doc = "Whether the eye moves with the target; else it turns only."},
+    {.name = "orbit", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_camera, orbit), .table = &orbit_table, .applies = ORBIT,
+     .only = "a camera on a circle", .derived = "no circle",
+     .doc = "Circle about a vertical axis along which the camera moves, instead of eye and target."},
+    {.name = "closeup", .type = SB_KEY_NAME, SB_KEY_AT(sb_camera, body), .applies = CLOSEUP, .derived = "no close-up",
+     .only = "a camera close to a body", .doc = "Body that fills the picture, instead of eye and target. The camera moves with it."},
+    {.name = "direction", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_camera, direction), SB_KEY_ANY, .applies = CLOSEUP,
+     .flags = SB_KEY_FULL, .fallback = "[-0.6, -0.7, 0.4]", .only = "a camera close to a body",
+     .doc = "Direction from the body to the camera, of any length but 0."},
+    {.name = "margin", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera, margin), .min = 1, .max = 100, .applies = CLOSEUP,
+     .fallback = "1.4", .only = "a camera close to a body",
+     .doc = "Distance of the camera, divided by that at which the body's box just fits into the picture."},
+};
+/* clang-format on */
+
+static sb_status finish_path(sb_reader *reader, const sb_yaml *map, const sb_camera *camera)
+{
+    if (camera->key_count < 2)
+        return sb_reader_fail(reader, map, "path", "has %zu entries, expected at least 2, or eye and target instead",
+                              camera->key_count);
+    for (size_t i = 1; i < camera->key_count; i++)
+        if (!(camera->keys[i].time > camera->keys[i - 1].time))
+            return sb_reader_fail(reader, map, "path",
+                                  "time %g s of entry %zu is not later than %g s of the entry before, "
+                                  "expected increasing times",
+                                  camera->keys[i].time, i, camera->keys[i - 1].time);
+    return SB_OK;
+}
+
+static sb_status finish_follow(sb_reader *reader, const sb_yaml *map, sb_follow *follow)
+{
+    const sb_scene *scene = reader->scene;
+    const sb_domain *domain = &scene->domain;
+    const double y = 0.5 * (domain->min.y + domain->max.y);
+    const bool from = sb_yaml_child(map, "from"), to = sb_yaml_child(map, "to");
+    if (!from) follow->ax = domain->min.x;
+    if (!from) follow->ay = y;
+    if (!to) follow->bx = domain->max.x;
+    if (!to) follow->by = y;
+    const double length = hypot(follow->bx - follow->ax, follow->by - follow->ay);
+    /* A twentieth of the time in which a long wave of this depth runs along the line. */
+    const double speed = sqrt(scene->fluid.gravity * (domain->max.z - domain->min.z));
+    if (!sb_yaml_child(map, "smoothing")) follow->smoothing = speed > 0 ? length / (20 * speed) : 0;
+    if (length > scene->resolution) return SB_OK;
+    return sb_reader_fail(reader, map, "to", "is within a spacing of `from`, expected the other end of a line");
+}
+
+static sb_status finish_camera(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    sb_camera *camera = item;
+    const unsigned variant = camera_variant(camera, map);
+    camera->kind = variant == FOLLOW    ? SB_CAMERA_FOLLOW
+                   : variant == ORBIT   ? SB_CAMERA_ORBIT
+                   : variant == CLOSEUP ? SB_CAMERA_CLOSEUP
+                                        : SB_CAMERA_KEYS;
+    if (variant == PATH) return finish_path(reader, map, camera);
+    if (variant == CLOSEUP && !sb_scene_may_have_body(reader->scene, camera->body))
+        return sb_reader_no_body(reader, map, "closeup", camera->body);
+    if (variant == CLOSEUP && !(sb_norm(camera->direction) > 0))
+        return sb_reader_fail(reader, map, "direction", "has length 0, expected a direction");
+    if (camera->key_count == 0) return SB_OK;
+    camera->keys->fov = camera->fov;
+    const sb_status status = finish_view(reader, map, camera->keys);
+    return status == SB_OK && variant == FOLLOW ? finish_follow(reader, map, &camera->follow) : status;
+}
+
+const sb_table sb_camera_table = {SB_KEY_ROWS(camera_keys), .size = sizeof(sb_camera), .variant = camera_variant,
+                                  .finish = finish_camera};

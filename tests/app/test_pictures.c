@@ -1,0 +1,213 @@
+/* The times of pictures, stills, cameras that move by themselves, and plots in pictures; also of resumed runs. */
+#include "program.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+
+#include <png.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Water that falls to the right, and towards larger y, with a camera of each kind. */
+static const char scene[] =
+    "title: Pictures\n"
+    "resolution: 0.1\n"
+    "duration: 0.3\n"
+    "domain: {min: [0, 0, 0], max: [2.6, 0.8, 1]}\n"
+    "water: {boxes: [{min: [0, 0, 0], max: [0.8, 0.8, 0.6]}]}\n"
+    "bodies:\n"
+    "  - {name: post, shape: box, min: [1.0, 0.3, 0], max: [1.3, 0.6, 0.8]}\n"
+    "measure: {interval: 0.02, gauges: [{name: wet, x: 0.4, y: 0.4}]}\n"
+    "output: {particle_interval: 0.07, plots: false}\n"
+    "render:\n"
+    "  interval: 0.07\n"
+    "  width: 320\n"
+    "  height: 240\n"
+    "  still_width: 480\n"
+    "  still_height: 270\n"
+    "  speed_max: 2\n"
+    "  video: false\n"
+    "  stills: [0.03, 0.21, 0.25]\n"
+    "  insets: [{force: post, axis: x}, {gauge: wet}]\n"
+    "  cameras:\n"
+    "    - {name: crest, eye: [0.4, -2, 1.2], target: [0.4, 0.4, 0.3], follow: crest, travel: true}\n"
+    "    - {name: round, orbit: {target: [1, 0.4, 0.3], radius: 3, height: 1, period: 1}}\n"
+    "    - {name: post, closeup: post}\n";
+
+static int setup(void **state)
+{
+    if (program_setup(state) != 0) return -1;
+    write_text("p.yaml", scene);
+    RUN_AND_FORGET(0, "run", "p.yaml", "--out", "r", "--quiet");
+    return 0;
+}
+
+/* Checks the k-th event of this kind in the log: its time, and that its step ended at this time or later by less than
+   a step. */
+static void check_event(const char *log, const char *event, int k, double time)
+{
+    char mark[64];
+    double drawn = -1, end = -1;
+    unsigned long long step = 0;
+    snprintf(mark, sizeof mark, "{\"event\":\"%s\"", event);
+    for (int i = 0; i <= k && log; i++) log = strstr(i > 0 ? log + 1 : log, mark);
+    if (!log) fail_msg("no %s number %d", event, k);
+    const char *text = strstr(log, "\"text\":\"");
+    assert_non_null(text);
+    assert_int_equal(sscanf(text, "\"text\":\"t = %lf s, from step %llu at t = %lf s", &drawn, &step, &end), 3);
+    assert_true(drawn > time - 1e-12 && drawn < time + 1e-12);
+    if (!(end >= time - 1e-9 && end < time + 0.03))
+        fail_msg("%s at %g s is from a step that ended at %g s", event, time, end);
+}
+
+static size_t count_of(const char *text, const char *word)
+{
+    size_t count = 0;
+    for (; (text = strstr(text, word)); text++) count++;
+    return count;
+}
+
+static void pictures_have_their_exact_times(void **state)
+{
+    (void)state;
+    char *log = text_of("r/run.jsonl");
+    for (int k = 0; k < 5; k++) check_event(log, "picture", k, 0.07 * k);
+    check_event(log, "still", 0, 0.03);
+    check_event(log, "still", 1, 0.21);
+    check_event(log, "still", 2, 0.25);
+    assert_int_equal(count_of(log, "{\"event\":\"picture\""), 5);
+    assert_int_equal(count_of(log, "{\"event\":\"still\""), 3);
+    sb_free(log);
+    assert_true(exists("r/frames/round/000005.png") && !exists("r/frames/round/000006.png"));
+    assert_true(exists("r/stills/round/000003.png") && !exists("r/stills/round/000004.png"));
+}
+
+/* With an interval shorter than the time step, each picture still has its time. */
+static void a_step_can_have_several_pictures(void **state)
+{
+    (void)state;
+    RUN_AND_FORGET(0, "run", "p.yaml", "--out", "fine", "--quiet", "--until", "0.03", "--set", "render.interval=0.002",
+                   "--set", "render.insets=[]", "--set", "render.stills=[]", "--set",
+                   "render.cameras=[{name: a, closeup: post}]", "--set", "render.width=64", "--set",
+                   "render.height=48");
+    char *log = text_of("fine/run.jsonl");
+    for (int k = 0; k < 15; k++) check_event(log, "picture", k, 0.002 * k);
+    sb_free(log);
+    assert_true(exists("fine/frames/a/000015.png"));
+}
+
+static png_bytep read_png(const char *path, png_image *image)
+{
+    *image = (png_image){.version = PNG_IMAGE_VERSION};
+    if (!png_image_begin_read_from_file(image, path)) fail_msg("%s: %s", path, image->message);
+    image->format = PNG_FORMAT_RGB;
+    png_bytep pixels = sb_alloc(PNG_IMAGE_SIZE(*image), 1);
+    assert_non_null(pixels);
+    assert_true(png_image_finish_read(image, NULL, pixels, 0, NULL));
+    return pixels;
+}
+
+static void stills_have_their_own_size(void **state)
+{
+    (void)state;
+    png_image image;
+    sb_free(read_png(in_folder("r/stills/post/000002.png"), &image));
+    assert_int_equal(image.width, 480);
+    assert_int_equal(image.height, 270);
+    sb_free(read_png(in_folder("r/frames/post/000002.png"), &image));
+    assert_int_equal(image.width, 320);
+    /* A run may have stills alone. */
+    RUN_AND_FORGET(0, "run", "p.yaml", "--out", "alone", "--quiet", "--until", "0.05", "--set", "render.interval=0");
+    assert_true(exists("alone/stills/crest/000001.png") && !exists("alone/stills/crest/000002.png"));
+    assert_false(exists("alone/frames"));
+    /* They are files of a run, which the next one replaces. */
+    RUN_AND_FORGET(0, "run", "p.yaml", "--out", "alone", "--quiet", "--until", "0.01", "--overwrite", "--set",
+                   "render.stills=[]");
+    assert_false(exists("alone/stills"));
+}
+
+static void assert_same_file(const char *a, const char *b)
+{
+    size_t length[2];
+    char *bytes[2];
+    sb_error error = {0};
+    assert_int_equal(sb_file_read(in_folder("%s", a), 1 << 24, &bytes[0], &length[0], &error), SB_OK);
+    assert_int_equal(sb_file_read(in_folder("%s", b), 1 << 24, &bytes[1], &length[1], &error), SB_OK);
+    if (length[0] != length[1] || memcmp(bytes[0], bytes[1], length[0]) != 0) fail_msg("%s and %s differ", a, b);
+    sb_free(bytes[0]);
+    sb_free(bytes[1]);
+}
+
+/* Cameras that follow and plots continue after a pause as if there had been none. */
+static void a_resumed_run_has_the_same_pictures(void **state)
+{
+    (void)state;
+    static const char *const cameras[] = {"crest", "round", "post"};
+    RUN_AND_FORGET(0, "run", "p.yaml", "--out", "two", "--quiet", "--until", "0.12");
+    assert_true(exists("two/stills/crest/000001.png") && !exists("two/stills/crest/000002.png"));
+    RUN_AND_FORGET(0, "run", "p.yaml", "--out", "two", "--quiet", "--resume");
+    for (size_t c = 0; c < 3; c++)
+        for (int k = 1; k <= 8; k++) {
+            char a[128], b[128];
+            const char *folder = k <= 5 ? "frames" : "stills";
+            snprintf(a, sizeof a, "r/%s/%s/%06d.png", folder, cameras[c], k <= 5 ? k : k - 5);
+            snprintf(b, sizeof b, "two/%s/%s/%06d.png", folder, cameras[c], k <= 5 ? k : k - 5);
+            assert_same_file(a, b);
+        }
+}
+
+/* Fraction of pixels that differ by more than a few levels, in the part of the picture where plots are or elsewhere. */
+static double difference(const char *a, const char *b, bool plots)
+{
+    png_image one, other;
+    png_bytep left = read_png(in_folder("%s", a), &one), right = read_png(in_folder("%s", b), &other);
+    assert_true(one.width == other.width && one.height == other.height);
+    size_t unlike = 0, count = 0;
+    for (size_t p = 0; p < (size_t)one.width * one.height; p++) {
+        const bool within = p % one.width < 210 && p / one.width > 50;
+        if (within != plots) continue;
+        int most = 0;
+        for (size_t c = 3 * p; c < 3 * p + 3; c++)
+            if (abs(left[c] - right[c]) > most) most = abs(left[c] - right[c]);
+        unlike += most > 8;
+        count++;
+    }
+    sb_free(left);
+    sb_free(right);
+    return (double)unlike / (double)count;
+}
+
+/* `render` carries the water of the particle files to the same times, and has the plots from the tables. */
+static void render_draws_the_same_pictures(void **state)
+{
+    (void)state;
+    RUN_AND_FORGET(0, "render", "r", "--out", "again", "--quiet");
+    RUN_AND_FORGET(0, "render", "r", "--out", "bare", "--quiet", "--set", "render.insets=[]");
+    for (int k = 1; k <= 5; k++) {
+        char drawn[64], again[64], bare[64];
+        snprintf(drawn, sizeof drawn, "r/frames/round/%06d.png", k);
+        snprintf(again, sizeof again, "again/frames/round/%06d.png", k);
+        snprintf(bare, sizeof bare, "bare/frames/round/%06d.png", k);
+        assert_same_file(drawn, again);
+        /* The plots would be missed. */
+        assert_true(difference(drawn, bare, true) > 0.2 && difference(drawn, bare, false) < 0.003);
+    }
+    /* A still that the run does not reach is a warning. */
+    outcome o = RUN(0, "check", "p.yaml", "--set", "duration=0.1");
+    assert_contains(o.out, "render.stills: 0.25 s is after the end of the run at 0.1 s: it has no still");
+    outcome_free(&o);
+    o = RUN(1, "render", "r", "--out", "none", "--set", "render.cameras=[{name: a, closeup: pots}]");
+    assert_one_line(o.err, "no body is named pots, did you mean post?");
+    outcome_free(&o);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pictures_have_their_exact_times), cmocka_unit_test(a_step_can_have_several_pictures),
+        cmocka_unit_test(stills_have_their_own_size),      cmocka_unit_test(a_resumed_run_has_the_same_pictures),
+        cmocka_unit_test(render_draws_the_same_pictures),
+    };
+    return cmocka_run_group_tests(tests, setup, program_teardown);
+}
