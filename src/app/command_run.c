@@ -96,7 +96,7 @@ int sb_command_run(int count, char **arguments)
                                             .argument_count = count + 1,
                                             .arguments = arguments - 1, /* with the name of the command */
                                             .thread_remains = &thread_remains};
-        status = (scene.offshore.present ? sb_grid_run : sb_run)(&scene, out, &run_options, &error);
+        status = (sb_scene_grid_alone(&scene) ? sb_grid_run : sb_run)(&scene, out, &run_options, &error);
     }
     if (status != SB_OK) fprintf(stderr, "shorebreak: %s\n", error.text);
     if (thread_remains) { /* a library's exit handler could wait for that thread, or free memory that it uses */

@@ -99,7 +99,8 @@ typedef struct sb_offshore_effort {
 } sb_offshore_effort;
 sb_offshore_effort sb_offshore_find_effort(const sb_offshore *offshore);
 
-/* Heap bytes that a grid of so many cells needs. */
+/* Heap bytes that a grid of so many cells needs, and those of a model. */
 size_t sb_offshore_bytes(const sb_offshore_options *options);
+size_t sb_offshore_held(const sb_offshore *offshore);
 
 #endif

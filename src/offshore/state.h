@@ -37,6 +37,13 @@ struct sb_offshore {
 /* create.c */
 bool sb_offshore_flat(const sb_offshore *offshore); /* one row: nothing varies along y */
 
+/* sample.c: the four cells around a place, and their weights; (column, row) is the first of them. */
+typedef struct sb_offshore_corners {
+    size_t column, row, at[4];
+    double weight[4];
+} sb_offshore_corners;
+sb_offshore_corners sb_offshore_around(const sb_offshore *offshore, double x, double y);
+
 /* sides.c: fills the cells beyond the sides of a level at that time. */
 void sb_offshore_fill_sides(const sb_offshore *offshore, const sb_offshore_level *level, double time);
 

@@ -97,6 +97,9 @@ double sb_strip_free_part(const sb_sim *sim, const sb_strip_side *s, double alon
 /* measure.c: measures the outgoing waves of all sides at the present time, and advances them by the time step. */
 sb_status sb_strip_measure(sb_sim *sim, sb_error *error);
 
+/* nest.c: steps the depth-averaged model, if it gives the water, to the end of the present step or beyond. */
+sb_status sb_strip_advance_grid(sb_sim *sim, sb_error *error);
+
 /* Stages. inflow.c: measures, and lets particles in; what is outside of the domain leaves with the sort. */
 sb_status sb_stage_inflow(sb_sim *sim, sb_error *error);
 /* hold.c: lists the held particles; after the density correction. */
