@@ -35,8 +35,7 @@ static void add_cell(const sb_offshore *o, size_t column, size_t row, double wei
     const velocity sw = velocity_at(o, i - 1, j - 1), se = velocity_at(o, i + 1, j - 1);
     const velocity nw = velocity_at(o, i - 1, j + 1), ne = velocity_at(o, i + 1, j + 1);
     const double square = d * d;
-    out->bend[0] +=
-        weight * (e.u - 2 * here.u + w.u + 0.25 * (ne.v - se.v - nw.v + sw.v)) / square;
+    out->bend[0] += weight * (e.u - 2 * here.u + w.u + 0.25 * (ne.v - se.v - nw.v + sw.v)) / square;
     out->bend[1] += weight * (n.v - 2 * here.v + s.v + 0.25 * (ne.u - se.u - nw.u + sw.u)) / square;
     out->lift += weight * 3 * o->dispersion->pressure[at] / (h * h);
 }

@@ -8,10 +8,10 @@
 /* Values of columns x rows cells, [row * columns + column]. Owns its arrays; zero is an empty one. */
 typedef struct sb_offshore_start {
     size_t columns, rows;
-    size_t wet, uncovered; /* cells with water; beside all bodies */
-    double deepest;        /* m, the largest depth */
-    double highest;        /* m, z of the highest surface */
-    double fastest;        /* m/s, the highest speed */
+    size_t wet, uncovered;    /* cells with water; beside all bodies */
+    double deepest;           /* m, the largest depth */
+    double highest;           /* m, z of the highest surface */
+    double fastest;           /* m/s, the highest speed */
     double *bed, *depth, *hu; /* m, m, m^2/s */
 } sb_offshore_start;
 

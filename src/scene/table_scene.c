@@ -193,7 +193,7 @@ static sb_status check_sea(sb_reader *reader, const sb_yaml *map, const sb_scene
 }
 
 /* Cells of the grid that lie beyond a side of the domain through which its water comes in. */
-static const double BEYOND = 4;
+static const double BEYOND = 8;
 
 static sb_status check_cover(sb_reader *reader, const sb_yaml *map, const sb_scene *scene)
 {
@@ -209,7 +209,7 @@ static sb_status check_cover(sb_reader *reader, const sb_yaml *map, const sb_sce
                               "the grid extends from %g to %g m along %c and the domain from %g to %g m, expected a "
                               "grid that contains the domain%s",
                               low[axis], high[axis], "xy"[axis], from[axis], to[axis],
-                              least > 0 ? ", with four cells beyond a side of kind sea" : "");
+                              least > 0 ? ", with eight cells beyond a side of kind sea" : "");
     }
     return SB_OK;
 }

@@ -45,8 +45,7 @@ static sb_status create(const sb_scene *scene, const sb_offshore_start *grid, vo
         return status;
     }
     snprintf(notes->about, sizeof notes->about, "the depth-averaged model, %zu x %zu cells of %g m, %s", grid->columns,
-             grid->rows, scene->offshore.cell,
-             scene->offshore.coupling == SB_COUPLING_TWO_WAY ? "two-way" : "one-way");
+             grid->rows, scene->offshore.cell, scene->offshore.coupling == SB_COUPLING_TWO_WAY ? "two-way" : "one-way");
     *state = made;
     return SB_OK;
 }

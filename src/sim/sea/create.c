@@ -91,6 +91,7 @@ void sb_strip_destroy(sb_sim *sim)
     }
     sb_sea_destroy(sim->strip->sea);
     sb_free(sim->strip->held);
+    sb_free(sim->strip->jumps);
     sb_free(sim->strip);
     sim->strip = NULL;
 }
