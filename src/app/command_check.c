@@ -81,6 +81,7 @@ static void visit_warnings(const sb_scene *scene, const sb_model *model, sb_warn
 {
     for (size_t w = 0; w < model->warning_count; w++) visit(context, model->warnings[w]);
     sb_scene_warnings(scene, visit, context);
+    if (sb_scene_nested(scene)) sb_grid_wave_warnings(scene, visit, context);
     sb_facet_warnings(scene, model, visit, context);
     sb_team_warnings(visit, context);
     /* Only a warning, because the run may be meant for another machine. */

@@ -34,34 +34,16 @@ sb_status sb_grid_water_create(const sb_scene *scene, sb_offshore **water, sb_gr
     return status;
 }
 
-void sb_grid_water_warnings(const sb_scene *scene, const sb_grid_facts *facts, sb_warning_visit *visit, void *context)
+void sb_grid_wave_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
     const sb_offshore_settings *o = &scene->offshore;
-    const bool ignored[] = {scene->measure.plane_count > 0, scene->measure.map.present,
-                            scene->render.interval > 0 && scene->render.camera_count > 0, scene->stream.enabled};
-    static const char *const names[] = {"measure.planes", "measure.map", "render", "stream"};
     char text[400];
-    for (size_t k = 0; k < sizeof ignored / sizeof *ignored; k++) {
-        if (!ignored[k]) continue;
-        snprintf(text, sizeof text, "%s: has no effect in a scene with offshore%s", names[k],
-                 strcmp(names[k], "measure.map") == 0 ? ", whose maps have its own cells" : "");
-        visit(context, text);
-    }
     const bool exact = o->wave.theory == SB_SOLITARY_SERRE && o->dispersion;
     if (o->wave.kind == SB_INITIAL_SOLITARY && !exact && o->wave.height > 0.2 * o->wave.depth) {
         snprintf(text, sizeof text,
                  "offshore.wave: a solitary wave of %.2g of the depth changes its form at the start%s",
                  o->wave.height / o->wave.depth,
                  o->dispersion ? "; expected theory: serre, which is exact here" : ", because shallow water has none");
-        visit(context, text);
-    }
-    bool ground = false; /* a floor beside shapes is usual; missing ground is not */
-    for (size_t b = 0; b < scene->body_count; b++)
-        ground = ground || scene->bodies[b].shape == SB_SHAPE_GRID || scene->bodies[b].shape == SB_SHAPE_MESH;
-    if (facts->uncovered > 0 && ground) {
-        snprintf(text, sizeof text,
-                 "bodies: no surface above %zu of %zu cells of offshore; there the bed is the domain's floor at %g m",
-                 facts->uncovered, facts->columns * facts->rows, scene->domain.min.z);
         visit(context, text);
     }
     if (o->wave.kind == SB_INITIAL_SOLITARY) {
@@ -72,5 +54,29 @@ void sb_grid_water_warnings(const sb_scene *scene, const sb_grid_facts *facts, s
                      o->cell, length, length / 10);
             visit(context, text);
         }
+    }
+}
+
+void sb_grid_water_warnings(const sb_scene *scene, const sb_grid_facts *facts, sb_warning_visit *visit, void *context)
+{
+    const bool ignored[] = {scene->measure.plane_count > 0, scene->measure.map.present,
+                            scene->render.interval > 0 && scene->render.camera_count > 0, scene->stream.enabled};
+    static const char *const names[] = {"measure.planes", "measure.map", "render", "stream"};
+    char text[400];
+    for (size_t k = 0; k < sizeof ignored / sizeof *ignored; k++) {
+        if (!ignored[k]) continue;
+        snprintf(text, sizeof text, "%s: has no effect in a scene with offshore%s", names[k],
+                 strcmp(names[k], "measure.map") == 0 ? ", whose maps have its own cells" : "");
+        visit(context, text);
+    }
+    sb_grid_wave_warnings(scene, visit, context);
+    bool ground = false; /* a floor beside shapes is usual; missing ground is not */
+    for (size_t b = 0; b < scene->body_count; b++)
+        ground = ground || scene->bodies[b].shape == SB_SHAPE_GRID || scene->bodies[b].shape == SB_SHAPE_MESH;
+    if (facts->uncovered > 0 && ground) {
+        snprintf(text, sizeof text,
+                 "bodies: no surface above %zu of %zu cells of offshore; there the bed is the domain's floor at %g m",
+                 facts->uncovered, facts->columns * facts->rows, scene->domain.min.z);
+        visit(context, text);
     }
 }

@@ -1,6 +1,7 @@
 /* Everything before the first step. */
 #include "app/checkpoint.h"
 #include "app/fit.h"
+#include "app/grid_water.h"
 #include "app/lock.h"
 #include "app/room.h"
 #include "app/run.h"
@@ -210,6 +211,7 @@ static void note_start(run *r)
                   r->model.body_count);
     sb_runlog_start(r->log, r->scene, &r->model, omp_get_max_threads(), sb_sim_bytes(r->sim));
     sb_scene_warnings(r->scene, warn, r);
+    if (sb_scene_nested(r->scene)) sb_grid_wave_warnings(r->scene, warn, r);
     sb_facet_warnings(r->scene, &r->model, warn, r);
     if (r->earlier.others == 1)
         sb_run_warn(r, "%.500s/%.300s: is not a file of a run; it is kept", r->directory, r->earlier.first_other);
