@@ -1,6 +1,7 @@
 #include "app/checkpoint.h"
 
 #include "app/checkpoint_parts.h"
+#include "app/grid_frame.h"
 #include "app/missed.h"
 #include "app/run_parts.h"
 #include "app/spent.h"
@@ -194,6 +195,7 @@ static void put_run(run *r, const sb_csv_marks *tables, sb_archive_out *out)
     sb_put_count(out, r->picture_times.still);
     sb_pictures_save(&r->pictures, out);
     sb_recorder_save(&r->recorder, out);
+    sb_grid_frames_save(r, out);
 }
 
 /* Warns once of files that a user removed. The next checkpoint does not look for them again. */

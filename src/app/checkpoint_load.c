@@ -1,6 +1,7 @@
 /* Resuming from the newest checkpoint that is undamaged, of this program and build, and of this scene. */
 #include "app/checkpoint.h"
 #include "app/checkpoint_parts.h"
+#include "app/grid_frame.h"
 #include "app/missed.h"
 #include "app/run_parts.h"
 #include "app/spent.h"
@@ -100,6 +101,7 @@ static sb_status take_run(run *r, sb_archive_in *in, sb_error *error)
     take_picture_times(r, in);
     status = sb_pictures_load(&r->pictures, in, error);
     if (status == SB_OK) status = sb_recorder_load(&r->recorder, in, error);
+    if (status == SB_OK) status = sb_grid_frames_load(r, in, error);
     if (status == SB_OK) status = sb_archive_leave(in, error);
     return status == SB_OK ? sb_csv_check(r->directory, r->scene, &r->tables, error) : status;
 }

@@ -1,6 +1,7 @@
 #include "app/check_waves.h"
 #include "app/commands.h"
 #include "app/fit.h"
+#include "app/grid_report.h"
 #include "app/grid_water.h"
 #include "app/options.h"
 #include "app/pace.h"
@@ -33,6 +34,7 @@ typedef struct estimate {
     double steps, time_step, seconds, memory, disk, ghosts;
     int settling, settling_most; /* steps */
     const sb_sea_source *sea;    /* NULL: no water is given */
+    sb_grid_cost grid;           /* of the depth-averaged model that gives it */
 } estimate;
 
 /* Seconds per step and fluid particle with the present number of threads. */
@@ -71,10 +73,17 @@ static estimate make_estimate(const sb_scene *scene, const sb_model *model)
     };
 }
 
+static void add_grid(const sb_scene *scene, sb_offshore *water, estimate *e)
+{
+    e->grid = sb_grid_find_cost(scene, water, scene->duration - scene->given.start);
+    e->seconds += e->grid.seconds;
+}
+
 static void visit_warnings(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context)
 {
     for (size_t w = 0; w < model->warning_count; w++) visit(context, model->warnings[w]);
     sb_scene_warnings(scene, visit, context);
+    if (sb_scene_nested(scene)) sb_grid_wave_warnings(scene, visit, context);
     sb_error walls = {0};
     if (sb_facet_warnings(scene, model, visit, context, &walls) != SB_OK) visit(context, walls.text);
     sb_team_warnings(visit, context);
@@ -134,6 +143,10 @@ static void report_text(const sb_scene *scene, const sb_model *model, const esti
     if (e->sea) printf("  given water        %s\n", sb_sea_about(e->sea));
     for (int side = 0; side < 4; side++) report_sea(model, side);
     sb_check_waves_text(scene);
+    if (e->grid.cells > 0)
+        printf("  grid               %.0f cells, %.0f MB, about %.0f steps of %.3g s, %.1f %% of the run time\n",
+               e->grid.cells, e->grid.bytes / 1e6, e->grid.steps, e->grid.time_step,
+               100 * e->grid.seconds / e->seconds);
     printf("  memory             about %.0f MB\n", e->memory / 1e6);
     printf("  steps              about %.0f of %.3g s\n", e->steps, e->time_step);
     if (e->settling > 0)
@@ -160,6 +173,12 @@ static void report_json(const sb_scene *scene, const sb_model *model, const esti
     sb_json_number(&json, "still_depth_m", model->still_depth);
     if (e->sea) sb_json_text(&json, "given_water", sb_sea_about(e->sea));
     sb_check_waves_json(scene, &json);
+    if (e->grid.cells > 0) {
+        sb_json_number(&json, "grid_cells", e->grid.cells);
+        sb_json_number(&json, "grid_memory_bytes", e->grid.bytes);
+        sb_json_number(&json, "grid_steps", e->grid.steps);
+        sb_json_number(&json, "grid_run_time_s", e->grid.seconds);
+    }
     sb_json_number(&json, "memory_bytes", e->memory);
     sb_json_number(&json, "steps", e->steps);
     sb_json_number(&json, "time_step_s", e->time_step);
@@ -198,14 +217,16 @@ int sb_command_check(int count, char **arguments)
         return 0;
     }
     if (status == SB_OK) status = sb_options_scene(&options, options.positional, &scene, &error);
-    const bool grid = status == SB_OK && scene.offshore.present;
+    const bool grid = status == SB_OK && sb_scene_grid_alone(&scene);
     if (grid) status = sb_grid_check(&scene, options.json, &error);
-    if (status == SB_OK && scene.given.source != SB_GIVEN_NONE) status = sb_sea_create(&scene, &sea, &error);
     if (status == SB_OK && !grid) status = sb_fit_check(&scene, &error);
     if (status == SB_OK && !grid) status = sb_model_build(&scene, &model, &error);
+    if (status == SB_OK && scene.given.source != SB_GIVEN_NONE)
+        status = sb_sea_create(&scene, &model.grid, &sea, &error);
     if (status == SB_OK && !grid) {
         estimate e = make_estimate(&scene, &model);
         e.sea = sea;
+        if (sb_scene_nested(&scene)) add_grid(&scene, sb_sea_grid(sea), &e);
         (options.json ? report_json : report_text)(&scene, &model, &e);
     } else if (status != SB_OK) {
         fprintf(stderr, "shorebreak: %s\n", error.text);

@@ -12,8 +12,8 @@
 static const char help[] =
     "usage: shorebreak run SCENE [OPTIONS]\n"
     "Simulates the scene and writes forces.csv, gauges.csv, probes.csv, pictures, particle files, plots,\n"
-    "run.jsonl and summary.json. A scene with offshore runs without particles and writes gauges.csv, maps and "
-    "grids.\n\n"
+    "run.jsonl and summary.json. A scene with offshore runs without particles, unless its sea.source is offshore, and\n"
+    "writes gauges.csv, maps and grids.\n\n"
     "  --out DIR            write the results to DIR (default: runs/<name of the scene file>)\n"
     "  --until T            stop at T seconds instead of the scene's duration\n"
     "  --threads N          number of simulation threads (default: one per available core)\n"
@@ -96,7 +96,7 @@ int sb_command_run(int count, char **arguments)
                                             .argument_count = count + 1,
                                             .arguments = arguments - 1, /* with the name of the command */
                                             .thread_remains = &thread_remains};
-        status = (scene.offshore.present ? sb_grid_run : sb_run)(&scene, out, &run_options, &error);
+        status = (sb_scene_grid_alone(&scene) ? sb_grid_run : sb_run)(&scene, out, &run_options, &error);
     }
     if (status != SB_OK) fprintf(stderr, "shorebreak: %s\n", error.text);
     if (thread_remains) { /* a library's exit handler could wait for that thread, or free memory that it uses */

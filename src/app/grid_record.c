@@ -1,13 +1,11 @@
 #include "app/grid_record.h"
 
+#include "app/grid_frame.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "output/maps.h"
-#include "output/pvd.h"
-#include "output/vti.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 /* The water at a place at a time between the last two levels. */
@@ -105,49 +103,6 @@ static sb_status write_rows(sb_grid_record *r, const sb_offshore *water, double 
     return sb_csv_write(r->csv, &records, error);
 }
 
-enum { FRAME_VALUES = 6 }; /* bed, depth, surface, three components of velocity */
-
-static void fill_frame(const sb_offshore_view *v, float *values)
-{
-    const size_t cells = v->columns * v->rows;
-    float *bed = values, *depth = values + cells, *surface = values + 2 * cells, *velocity = values + 3 * cells;
-    for (size_t j = 0; j < v->rows; j++)
-        for (size_t i = 0; i < v->columns; i++) {
-            const size_t from = j * v->stride + i, to = j * v->columns + i;
-            const double h = v->h[from];
-            const bool wet = h > v->dry_depth;
-            bed[to] = (float)v->bed[from];
-            depth[to] = (float)h;
-            surface[to] = wet ? (float)(v->bed[from] + h) : NAN;
-            velocity[3 * to] = wet ? (float)(v->hu[from] / h) : 0;
-            velocity[3 * to + 1] = wet ? (float)(v->hv[from] / h) : 0;
-        }
-}
-
-static sb_status write_frame(sb_grid_record *r, const sb_offshore *water, sb_error *error)
-{
-    const sb_offshore_view v = sb_offshore_read(water);
-    const size_t cells = v.columns * v.rows;
-    float *values = sb_alloc(FRAME_VALUES * cells, sizeof *values);
-    if (!values) return sb_fail_memory(error, "a file for ParaView");
-    fill_frame(&v, values);
-    const sb_vti_array arrays[] = {{"bed", 1, values},
-                                   {"depth", 1, values + cells},
-                                   {"surface", 1, values + 2 * cells},
-                                   {"velocity", 3, values + 3 * cells}};
-    const sb_vti image = {v.time, v.columns, v.rows, v.x, v.y, v.cell, sizeof arrays / sizeof *arrays, arrays};
-    char name[64], path[SB_PATH_MAX];
-    const int length = snprintf(name, sizeof name, SB_VTI_FOLDER "/%06zu.vti", r->frames.count + 1);
-    sb_status status = sb_make_folder(path, r->directory, SB_VTI_FOLDER, error);
-    if (status == SB_OK) status = sb_path_join(path, r->directory, name, error);
-    if (status == SB_OK) status = sb_vti_write(path, &image, error);
-    if (status == SB_OK) status = sb_particle_list_add(&r->frames, v.time, name, (size_t)length, error);
-    if (status == SB_OK) status = sb_path_join(path, r->directory, SB_VTI_LIST ".pvd", error);
-    if (status == SB_OK) status = sb_pvd_write(path, &r->frames, error);
-    sb_free(values);
-    return status;
-}
-
 /* Records all that is due at the model's time. */
 static sb_status record(sb_grid_record *r, const sb_offshore *water, sb_error *error)
 {
@@ -160,7 +115,7 @@ static sb_status record(sb_grid_record *r, const sb_offshore *water, sb_error *e
     if (status != SB_OK || !(r->scene->output.particle_interval > 0) || time < r->next_frame * (1 - 1e-12))
         return status;
     r->next_frame = (floor(time / r->scene->output.particle_interval + 1e-9) + 1) * r->scene->output.particle_interval;
-    return write_frame(r, water, error);
+    return sb_grid_frame_write(r->directory, water, &r->frames, error);
 }
 
 sb_status sb_grid_record_begin(sb_grid_record *r, const sb_scene *scene, const char *directory,

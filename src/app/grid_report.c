@@ -11,6 +11,17 @@
 /* Seconds of one core per cell and step, for estimates: without and with dispersion; measured on a core at 2.6 GHz. */
 static const double SECONDS_PER_CELL[] = {60e-9, 170e-9};
 
+sb_grid_cost sb_grid_find_cost(const sb_scene *scene, sb_offshore *water, double time)
+{
+    const sb_offshore_view v = sb_offshore_read(water);
+    sb_grid_cost cost = {.cells = (double)(v.columns * v.rows),
+                         .time_step = sb_offshore_time_step(water),
+                         .bytes = (double)sb_offshore_held(water)};
+    cost.steps = ceil(time / cost.time_step);
+    cost.seconds = cost.steps * cost.cells * SECONDS_PER_CELL[scene->offshore.dispersion] / omp_get_max_threads();
+    return cost;
+}
+
 double sb_grid_imbalance(const sb_offshore_balance *b)
 {
     double expected = b->first + b->added + b->repaired;
@@ -137,9 +148,8 @@ sb_status sb_grid_check(const sb_scene *scene, bool json, sb_error *error)
     sb_grid_facts facts = {0};
     const sb_status status = sb_grid_water_create(scene, &water, &facts, error);
     if (status != SB_OK) return status;
-    const double steps = ceil(scene->duration / facts.time_step), cells = (double)(facts.columns * facts.rows);
-    const double seconds = steps * cells * SECONDS_PER_CELL[scene->offshore.dispersion] / omp_get_max_threads();
-    (json ? report_json : report_text)(scene, &facts, steps, seconds);
+    const sb_grid_cost cost = sb_grid_find_cost(scene, water, scene->duration);
+    (json ? report_json : report_text)(scene, &facts, cost.steps, cost.seconds);
     sb_offshore_destroy(water);
     return SB_OK;
 }

@@ -23,4 +23,10 @@ sb_status sb_grid_summary_write(const char *path, const sb_grid_summary *summary
 /* Volume that the balance does not explain, m^3 (m^2 in 2D). */
 double sb_grid_imbalance(const sb_offshore_balance *balance);
 
+/* Estimates for the time that the model runs. */
+typedef struct sb_grid_cost {
+    double cells, time_step, bytes, steps, seconds; /* s of the first step, bytes, s of wall time */
+} sb_grid_cost;
+sb_grid_cost sb_grid_find_cost(const sb_scene *scene, sb_offshore *water, double time);
+
 #endif

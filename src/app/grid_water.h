@@ -1,4 +1,4 @@
-/* Runs of the depth-averaged model alone: scenes with `offshore`. */
+/* Runs of the depth-averaged model alone: scenes with `offshore` and without particles. */
 #ifndef SB_APP_GRID_WATER_H
 #define SB_APP_GRID_WATER_H
 
@@ -18,6 +18,9 @@ sb_status sb_grid_water_create(const sb_scene *scene, sb_offshore **water, sb_gr
 
 /* Settings of the scene that have no effect here, and doubtful ones. */
 void sb_grid_water_warnings(const sb_scene *scene, const sb_grid_facts *facts, sb_warning_visit *visit, void *context);
+
+/* Doubtful settings of its initial wave; those of sb_grid_water_warnings contain them. */
+void sb_grid_wave_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context);
 
 /* As sb_run, for a scene with `offshore`. */
 sb_status sb_grid_run(const sb_scene *scene, const char *directory, const sb_run_options *options, sb_error *error);

@@ -1,6 +1,7 @@
 #include "app/room.h"
 
 #include "base/memory.h"
+#include "geometry/grid/start.h"
 
 #include <math.h>
 
@@ -90,7 +91,8 @@ double sb_room_needed(const sb_scene *scene, const sb_model *model)
                          (scene->stream.enabled ? STREAM_BYTES : 0);
     return PROGRAM_BYTES + picture_bytes(scene, model) + map_bytes(scene) +
            (double)model->fluid_count * (fluid + IMPULSE_BYTES * (double)model->body_count) +
-           (double)model->wall_count * WALL_BYTES + sb_room_ghosts(scene, model) * GHOST_BYTES;
+           (double)model->wall_count * WALL_BYTES + sb_room_ghosts(scene, model) * GHOST_BYTES +
+           (sb_scene_nested(scene) ? sb_grid_bytes(scene) : 0);
 }
 
 sb_status sb_room_check(const sb_scene *scene, const sb_model *model, sb_error *error)

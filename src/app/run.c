@@ -1,6 +1,7 @@
 #include "app/run.h"
 
 #include "app/checkpoint.h"
+#include "app/grid_frame.h"
 #include "app/missed.h"
 #include "app/picture_now.h"
 #include "app/run_parts.h"
@@ -115,6 +116,7 @@ static sb_status one_step(run *r, sb_error *error)
     if (status == SB_OK) status = sb_insets_add(&r->pictures.insets, sb_measure_latest(r->measure), error);
     sb_run_inform_stream(r);
     if (status == SB_OK) status = feed(r, error);
+    if (status == SB_OK) status = sb_grid_frame_of_run(r, error);
     sb_missed_report(r);
     if (report->step % LOG_STEPS == 0) {
         sb_run_ensure_log(r);
@@ -130,6 +132,7 @@ static sb_status advance(run *r, sb_error *error)
 {
     sb_run_inform_stream(r);
     sb_status status = feed(r, error);
+    if (status == SB_OK) status = sb_grid_frame_of_run(r, error);
     report_departures(r);
     while (status == SB_OK && sb_sim_report(r->sim)->time < r->scene->duration * (1 - 1e-12)) {
         sb_steering_take(r);
@@ -211,6 +214,7 @@ sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_opti
     sb_measure_destroy(r.measure);
     sb_sim_destroy(r.sim);
     release_shared(&r, options->thread_remains);
+    sb_particle_list_free(&r.grid_frames);
     sb_run_files_free(&r.earlier);
     if (r.lock >= 0) close(r.lock);
     if (status != SB_OK && error) *error = local;

@@ -1,6 +1,7 @@
 /* Everything before the first step. */
 #include "app/checkpoint.h"
 #include "app/fit.h"
+#include "app/grid_water.h"
 #include "app/lock.h"
 #include "app/room.h"
 #include "app/run.h"
@@ -208,6 +209,7 @@ static sb_status note_start(run *r, sb_error *error)
                   r->model.body_count);
     sb_runlog_start(r->log, r->scene, &r->model, omp_get_max_threads(), sb_sim_bytes(r->sim));
     sb_scene_warnings(r->scene, warn, r);
+    if (sb_scene_nested(r->scene)) sb_grid_wave_warnings(r->scene, warn, r);
     const sb_status status = sb_facet_warnings(r->scene, &r->model, warn, r, error);
     if (status != SB_OK) return status;
     if (r->earlier.others == 1)

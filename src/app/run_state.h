@@ -87,7 +87,8 @@ typedef struct run {
     sb_steering steering;
     sb_requested requested;
     sb_checkpoints checkpoints;
-    sb_csv_marks tables; /* lengths and hashes of the tables that a resumed run continues */
+    sb_particle_list grid_frames; /* files of the depth-averaged model beside the particles */
+    sb_csv_marks tables;          /* lengths and hashes of the tables that a resumed run continues */
     sb_energy first_energy;
     uint64_t iterations, capped, frames;
     double compression, compression_max; /* sum over the steps and maximum, as in sb_step_report */

@@ -15,6 +15,7 @@ sb_offshore_view sb_offshore_read(const sb_offshore *offshore)
                               .y = o->y,
                               .cell = o->cell,
                               .time = offshore->time,
+                              .before = offshore->before_time,
                               .dry_depth = o->dry_depth,
                               .bed = offshore->bed + at,
                               .h = offshore->now.h + at,

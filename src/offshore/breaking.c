@@ -2,6 +2,7 @@
    shallow- water equations form a bore, which loses the energy that a breaker loses. */
 #include "offshore/dispersion.h"
 #include "offshore/flux.h"
+#include "offshore/jump.h"
 
 #include <string.h>
 
@@ -102,6 +103,7 @@ void sb_offshore_mark_active(sb_offshore *offshore, const sb_offshore_level *lev
         memcpy(before, offshore->dispersion->breaking, offshore->cells * sizeof *before);
 #pragma omp parallel for schedule(static) if (offshore->cells > 20000)
         for (size_t j = 0; j < rows; j++) find_breaking(line_at(offshore, level, j), count);
+        sb_offshore_jump_breaking(offshore);
         sb_offshore_wrap(offshore, offshore->dispersion->breaking, 1);
     }
 #pragma omp parallel for schedule(static) if (offshore->cells > 20000)

@@ -31,6 +31,11 @@ size_t sb_offshore_bytes(const sb_offshore_options *options)
            (options->dispersion ? cells * 2 * sizeof(double) + sb_offshore_dispersion_bytes(cells) : 0);
 }
 
+size_t sb_offshore_held(const sb_offshore *offshore)
+{
+    return sb_offshore_bytes(&offshore->options);
+}
+
 static sb_status check(const sb_offshore_options *o, sb_error *error)
 {
     if (o->columns < 2 || o->rows < 1)

@@ -14,9 +14,6 @@ typedef struct sb_offshore_system {
     bool around_x, around_y;
 } sb_offshore_system;
 
-/* Slopes of the bed beyond which the equations do not hold. */
-#define SB_OFFSHORE_STEEPEST 0.5
-
 struct sb_offshore_dispersion {
     sb_offshore_system system;
     double *pressure; /* m^3/s^2, depth-integrated non-hydrostatic pressure over density, of the last solve */

@@ -60,8 +60,8 @@ double sb_offshore_time_step(sb_offshore *offshore);
 /* Read-only rows of the state: value of column i is [j * stride + i]. Valid until the next step or destroy. */
 typedef struct sb_offshore_view {
     size_t columns, rows, stride;
-    double x, y, cell, time, dry_depth; /* m, s */
-    const double *bed, *h, *hu, *hv;    /* m, m, m^2/s */
+    double x, y, cell, time, before, dry_depth; /* m, s; before: the time before the last step */
+    const double *bed, *h, *hu, *hv;            /* m, m, m^2/s */
 } sb_offshore_view;
 sb_offshore_view sb_offshore_read(const sb_offshore *offshore);
 
@@ -81,6 +81,23 @@ sb_offshore_sample sb_offshore_at(const sb_offshore *offshore, double x, double 
    water is removed than there is. Returns the depth that was added. The change is booked in the balance. */
 double sb_offshore_add(sb_offshore *offshore, size_t column, size_t row, double depth, double hu, double hv);
 
+/* A wave at a place: surface, velocity inwards, and non-hydrostatic pressure, integrated over the depth, over density.
+ */
+typedef struct sb_offshore_wave {
+    double surface, inwards, pressure; /* m, m/s, m^3/s^2 */
+} sb_offshore_wave;
+/* A face between two parts of the grid. Outside, the water is that of the part within and a wave, which leaves the face
+   outwards and does not enter the part within. */
+typedef struct sb_offshore_jump {
+    size_t column, row;               /* the cell outside */
+    int axis, sign;                   /* of the next cell within: 0 along x, 1 along y; 1 or -1 */
+    sb_offshore_wave outside, within; /* the wave at the centres of the two cells */
+} sb_offshore_jump;
+
+/* Sets the jumps of the steps that follow; the caller keeps the array. count 0: none. The volume that they add outside
+   is booked as added. */
+void sb_offshore_set_jumps(sb_offshore *offshore, const sb_offshore_jump *jumps, size_t count);
+
 /* Volumes in m^3 (one row: m^2, per metre of width). first + entered + added + repaired = now, but for rounding. */
 typedef struct sb_offshore_balance {
     double first, now;                 /* at the start, now */
@@ -99,7 +116,8 @@ typedef struct sb_offshore_effort {
 } sb_offshore_effort;
 sb_offshore_effort sb_offshore_find_effort(const sb_offshore *offshore);
 
-/* Heap bytes that a grid of so many cells needs. */
+/* Heap bytes that a grid of so many cells needs, and those of a model. */
 size_t sb_offshore_bytes(const sb_offshore_options *options);
+size_t sb_offshore_held(const sb_offshore *offshore);
 
 #endif

@@ -3,12 +3,6 @@
 
 #include <math.h>
 
-/* The four cells around a place, and their weights. */
-typedef struct corners {
-    size_t at[4];
-    double weight[4];
-} corners;
-
 /* Cell below a coordinate in cells, and the fraction of the way to the next one; clamped to the grid. */
 static size_t locate(double coordinate, size_t count, double *fraction)
 {
@@ -18,7 +12,7 @@ static size_t locate(double coordinate, size_t count, double *fraction)
     return low;
 }
 
-static corners around(const sb_offshore *offshore, double x, double y)
+sb_offshore_corners sb_offshore_around(const sb_offshore *offshore, double x, double y)
 {
     const sb_offshore_options *o = &offshore->options;
     double fx, fy = 0;
@@ -26,13 +20,15 @@ static corners around(const sb_offshore *offshore, double x, double y)
     const size_t j = sb_offshore_flat(offshore) ? 0 : locate((y - o->y) / o->cell, o->rows, &fy);
     const size_t at = offshore->origin + j * offshore->stride + i;
     const size_t up = sb_offshore_flat(offshore) ? 0 : offshore->stride;
-    return (corners){.at = {at, at + 1, at + up, at + up + 1},
-                     .weight = {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy}};
+    return (sb_offshore_corners){.column = i,
+                                 .row = j,
+                                 .at = {at, at + 1, at + up, at + up + 1},
+                                 .weight = {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy}};
 }
 
 /* Dry cells take part with the mean surface of the wet ones; where this is below the bed, the place is dry. */
-static sb_offshore_water mix(const sb_offshore *offshore, const sb_offshore_level *level, const corners *c, double bed,
-                             bool *wet)
+static sb_offshore_water mix(const sb_offshore *offshore, const sb_offshore_level *level, const sb_offshore_corners *c,
+                             double bed, bool *wet)
 {
     const double dry = offshore->options.dry_depth;
     sb_offshore_water sum = {0};
@@ -54,7 +50,7 @@ static sb_offshore_water mix(const sb_offshore *offshore, const sb_offshore_leve
 
 sb_offshore_sample sb_offshore_at(const sb_offshore *offshore, double x, double y)
 {
-    const corners c = around(offshore, x, y);
+    const sb_offshore_corners c = sb_offshore_around(offshore, x, y);
     sb_offshore_sample sample = {.time = {offshore->before_time, offshore->time}};
     for (int k = 0; k < 4; k++) sample.bed += c.weight[k] * offshore->bed[c.at[k]];
     sample.water[0] = mix(offshore, &offshore->before, &c, sample.bed, &sample.wet[0]);

@@ -7,6 +7,9 @@
 /* Layers of cells beyond each side: a face needs the slopes of both cells, and a slope needs both neighbours. */
 enum { SB_OFFSHORE_BEYOND = 2 };
 
+/* Slopes of the bed beyond which the dispersive equations do not hold. */
+#define SB_OFFSHORE_STEEPEST 0.5
+
 /* Conserved values per cell: depth, m, and momentum, m^2/s. */
 typedef struct sb_offshore_level {
     double *h, *hu, *hv;
@@ -17,8 +20,10 @@ typedef struct sb_offshore_level {
 struct sb_offshore {
     sb_offshore_options options;
     size_t stride, lines, origin, cells; /* cells: stride x lines */
-    double time, before_time;            /* s, of now and of before */
-    double longest;                      /* s, longest stable time step so far; 0: none */
+    const sb_offshore_jump *jumps;       /* of the next step; borrowed */
+    size_t jump_count;
+    double time, before_time; /* s, of now and of before */
+    double longest;           /* s, longest stable time step so far; 0: none */
     uint64_t steps;
     double *bed;
     sb_offshore_level now, before, stage;      /* a step writes its result over `before` */
@@ -36,6 +41,13 @@ struct sb_offshore {
 
 /* create.c */
 bool sb_offshore_flat(const sb_offshore *offshore); /* one row: nothing varies along y */
+
+/* sample.c: the four cells around a place, and their weights; (column, row) is the first of them. */
+typedef struct sb_offshore_corners {
+    size_t column, row, at[4];
+    double weight[4];
+} sb_offshore_corners;
+sb_offshore_corners sb_offshore_around(const sb_offshore *offshore, double x, double y);
 
 /* sides.c: fills the cells beyond the sides of a level at that time. */
 void sb_offshore_fill_sides(const sb_offshore *offshore, const sb_offshore_level *level, double time);

@@ -1,5 +1,6 @@
 /* Heun's time step: two stages, then friction. */
 #include "offshore/dispersion.h"
+#include "offshore/jump.h"
 #include "offshore/state.h"
 
 #include <math.h>
@@ -113,6 +114,7 @@ sb_status sb_offshore_step(sb_offshore *offshore, double most, double *taken, sb
     offshore->before_time = offshore->time;
     offshore->time += dt;
     offshore->steps++;
+    sb_offshore_jump_fluxes(offshore, dt);
     if (taken) *taken = dt;
     return SB_OK;
 }

@@ -57,7 +57,13 @@ typedef struct sb_initial_wave {
 } sb_initial_wave;
 
 /* Where the surface and velocity of the water at the sides of kind `sea` come from. NONE: still water. */
-typedef enum sb_given_source { SB_GIVEN_NONE, SB_GIVEN_THEORY, SB_GIVEN_TABLE, SB_GIVEN_RECORD } sb_given_source;
+typedef enum sb_given_source {
+    SB_GIVEN_NONE,
+    SB_GIVEN_THEORY,
+    SB_GIVEN_TABLE,
+    SB_GIVEN_RECORD,
+    SB_GIVEN_OFFSHORE /* the depth-averaged model, which is stepped together with the particles */
+} sb_given_source;
 typedef enum sb_given_wave { SB_GIVEN_SOLITARY, SB_GIVEN_REGULAR, SB_GIVEN_COMPONENTS } sb_given_wave;
 typedef enum sb_given_side { SB_GIVEN_HERE, SB_GIVEN_STILL } sb_given_side;
 typedef enum sb_given_unit { SB_UNIT_M, SB_UNIT_CM, SB_UNIT_MM, SB_UNIT_FT } sb_given_unit;
@@ -317,7 +323,18 @@ typedef struct sb_offshore_grid {
     double x, y;          /* m, translation */
 } sb_offshore_grid;
 
-/* The depth-averaged model. A scene that has one has no particles. */
+typedef enum sb_grid_side {
+    SB_GRID_SIDE_DOMAIN, /* that of the domain; of a grid that ends elsewhere: open */
+    SB_GRID_SIDE_WALL,
+    SB_GRID_SIDE_OPEN,
+    SB_GRID_SIDE_PERIODIC
+} sb_grid_side;
+typedef enum sb_coupling {
+    SB_COUPLING_ONE_WAY, /* the grid gives water to the particles */
+    SB_COUPLING_TWO_WAY  /* and gets the waves that leave the particles */
+} sb_coupling;
+
+/* The depth-averaged model. A scene that has one has particles only if the sea's source is `offshore`. */
 typedef struct sb_offshore_settings {
     bool present;
     double cell;                       /* m */
@@ -331,6 +348,8 @@ typedef struct sb_offshore_settings {
     bool has_uplift;
     sb_offshore_grid uplift; /* m, added to the still surface at the start */
     sb_initial_wave wave;
+    sb_grid_side side[4]; /* from x_min to y_max */
+    sb_coupling coupling;
 } sb_offshore_settings;
 
 /* How a camera moves from a key of its path to the next one. */
@@ -474,6 +493,16 @@ static inline bool sb_scene_given_side(const sb_scene *scene, int side)
 {
     return sb_scene_sea_side(scene, side) && scene->given.source != SB_GIVEN_NONE &&
            scene->given.side[side] == SB_GIVEN_HERE;
+}
+
+/* Whether the depth-averaged model gives the water at sides of kind sea, and whether it runs without particles. */
+static inline bool sb_scene_nested(const sb_scene *scene)
+{
+    return scene->offshore.present && scene->given.source == SB_GIVEN_OFFSHORE;
+}
+static inline bool sb_scene_grid_alone(const sb_scene *scene)
+{
+    return scene->offshore.present && scene->given.source != SB_GIVEN_OFFSHORE;
 }
 
 /* Whether the domain is periodic along an axis (0, 1, 2). In 2D it is never periodic along y. */

@@ -3,6 +3,19 @@
 #include <math.h>
 
 static const char *const positive_names[] = {"up", "down", NULL};
+static const char *const side_names[] = {"domain", "wall", "open", "periodic", NULL};
+static const char *const coupling_names[] = {"one-way", "two-way", NULL};
+
+#define GRID_SIDE(index, side)                                                                                         \
+    {                                                                                                                  \
+        .name = side, .type = SB_KEY_CHOICE, .offset = (index) * sizeof(sb_grid_side), .words = side_names,            \
+        .fallback = "domain",                                                                                          \
+        .doc = "The grid's side " side "; `domain`: as that of the domain, or open where the grid extends beyond it."  \
+    }
+
+static const sb_key side_keys[] = {GRID_SIDE(SB_X_MIN, "x_min"), GRID_SIDE(SB_X_MAX, "x_max"),
+                                   GRID_SIDE(SB_Y_MIN, "y_min"), GRID_SIDE(SB_Y_MAX, "y_max")};
+static const sb_table side_table = {SB_KEY_ROWS(side_keys)};
 
 #define GRID_KEYS                                                                                                      \
     {.name = "file",                                                                                                   \
@@ -61,7 +74,8 @@ static const sb_key keys[] = {
      .doc = "Grids of the bed, coarse ones first: where a later one has heights, these count. Together they cover "
             "the grid. Without it, the bed is the highest surface of the bodies, or else the domain's floor."},
     {.name = "level", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_offshore_settings, level), .unit = "m", SB_KEY_ANY,
-     .fallback = "0", .doc = "Still-water level: all ground below it is under water at the start."},
+     .derived = "`water.level`; 0 without particles",
+     .doc = "Still-water level: all ground below it is under water at the start."},
     {.name = "manning", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_offshore_settings, manning), .unit = "s/m^(1/3)",
      .min = 0, .max = 1, .fallback = "0.025", .doc = "Manning's number of the bed; 0: no friction."},
     {.name = "dispersion", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_offshore_settings, dispersion), .fallback = "true",
@@ -75,6 +89,12 @@ static const sb_key keys[] = {
      .doc = "Grid of heights that are added to the still surface at the start; 0 where it has none."},
     {.name = "wave", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_offshore_settings, wave), .table = &sb_wave_table,
      .doc = "Wave at t = 0 by wave theory."},
+    {.name = "sides", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_offshore_settings, side), .table = &side_table,
+     .doc = "Kinds of the grid's sides."},
+    {.name = "coupling", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_offshore_settings, coupling), .words = coupling_names,
+     .fallback = "one-way",
+     .doc = "With `sea.source: offshore`: `one-way` gives the grid's water to the particles; `two-way` also gives the "
+            "waves that leave the particles back to the grid."},
 };
 /* clang-format on */
 
@@ -102,7 +122,7 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     const sb_domain *domain = &reader->scene->domain;
     o->present = true;
     o->has_uplift = variant(item, map) & UPLIFT;
-    reader->scene->resolution = o->cell;
+    if (!(reader->scene->resolution > 0)) reader->scene->resolution = o->cell; /* there are no particles */
     if (!sb_yaml_child(map, "min")) {
         o->x_min = domain->min.x;
         o->y_min = domain->min.y;

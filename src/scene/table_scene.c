@@ -1,6 +1,7 @@
 #include "scene/reader.h"
 
 #include <math.h>
+#include <string.h>
 
 const char *const sb_side_names[SB_SIDES] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
@@ -111,13 +112,17 @@ enum { PARTICLES = 1, OFFSHORE = 2, GIVEN = 4 };
 
 static unsigned scene_variant(const void *item, const sb_yaml *map)
 {
-    const bool offshore = map ? sb_yaml_child(map, "offshore") != NULL : ((const sb_scene *)item)->offshore.present;
-    const bool given =
-        map ? sb_yaml_child(map, "sea") != NULL : ((const sb_scene *)item)->given.source != SB_GIVEN_NONE;
-    return (offshore ? OFFSHORE : PARTICLES) | (given ? GIVEN : 0);
+    const sb_scene *scene = item;
+    if (!map)
+        return (scene->offshore.present ? OFFSHORE : 0) | (sb_scene_grid_alone(scene) ? 0 : PARTICLES) |
+               (scene->given.source != SB_GIVEN_NONE ? GIVEN : 0);
+    const sb_yaml *sea = sb_yaml_child(map, "sea"), *source = sea ? sb_yaml_child(sea, "source") : NULL;
+    const bool offshore = sb_yaml_child(map, "offshore") != NULL;
+    const bool nested = source && source->text && strcmp(source->text, "offshore") == 0;
+    return (offshore ? OFFSHORE : 0) | (offshore && !nested ? 0 : PARTICLES) | (sea ? GIVEN : 0);
 }
 
-#define WITH_PARTICLES .applies = PARTICLES, .only = "a scene without offshore"
+#define WITH_PARTICLES .applies = PARTICLES, .only = "a scene without offshore, or with sea.source: offshore"
 
 /* clang-format off */
 static const sb_key scene_keys[] = {
@@ -138,7 +143,8 @@ static const sb_key scene_keys[] = {
      .flags = SB_KEY_REQUIRED, .doc = "The box that contains the simulation."},
     {.name = "offshore", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, offshore), .table = &sb_offshore_table,
      .applies = OFFSHORE, .derived = "none", .only = "depth-averaged water",
-     .doc = "Depth-averaged water on a grid, without particles; see [the depth-averaged model](offshore.md)."},
+     .doc = "Depth-averaged water on a grid: without particles, or beside them with `sea.source: offshore`; see [the "
+            "depth-averaged model](offshore.md)."},
     {.name = "numerics", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, numerics),
      .table = &sb_numerics_table,
      .doc = "Numerical parameters; a preset sets the ones that are not given."},
@@ -179,14 +185,57 @@ static sb_status check_sea(sb_reader *reader, const sb_yaml *map, const sb_scene
             return sb_reader_fail(reader, map, "sea", "sides.%s: still, but domain.sides.%s is not sea, expected sea",
                                   sb_side_names[side], sb_side_names[side]);
     }
-    if (any && scene->offshore.present)
+    if (any && sb_scene_grid_alone(scene))
         return sb_reader_fail(reader, map, "domain",
                               "sides: a side of kind sea needs particles, and a scene with offshore has none, expected "
-                              "wall, open or periodic");
+                              "wall, open or periodic, or sea: {source: offshore}");
     if (given || scene->given.source == SB_GIVEN_NONE) return SB_OK;
     return sb_reader_fail(reader, map, "sea",
                           "the given water has no side to come in through, expected domain.sides with a side of kind "
                           "sea, such as {x_min: sea}, that is not still");
+}
+
+/* Cells of the grid that lie beyond a side of the domain through which its water comes in. */
+static const double BEYOND = 8;
+
+static sb_status check_cover(sb_reader *reader, const sb_yaml *map, const sb_scene *scene)
+{
+    const sb_offshore_settings *o = &scene->offshore;
+    const double low[] = {o->x_min, o->y_min}, high[] = {o->x_max, o->y_max};
+    const double from[] = {scene->domain.min.x, scene->domain.min.y}, to[] = {scene->domain.max.x, scene->domain.max.y};
+    for (int side = 0; side < 2 * (scene->dimensions - 1); side++) {
+        const int axis = side / 2;
+        const double beyond = side % 2 ? high[axis] - to[axis] : from[axis] - low[axis];
+        const double least = sb_scene_given_side(scene, side) ? BEYOND * o->cell : 0;
+        if (beyond >= least - 1e-6 * o->cell) continue;
+        return sb_reader_fail(reader, map, "offshore",
+                              "the grid extends from %g to %g m along %c and the domain from %g to %g m, expected a "
+                              "grid that contains the domain%s",
+                              low[axis], high[axis], "xy"[axis], from[axis], to[axis],
+                              least > 0 ? ", with eight cells beyond a side of kind sea" : "");
+    }
+    return SB_OK;
+}
+
+/* The grid beside the particles. */
+static sb_status finish_nested(sb_reader *reader, const sb_yaml *map, sb_scene *scene)
+{
+    const sb_yaml *block = sb_yaml_child(map, "offshore");
+    if (scene->given.source == SB_GIVEN_OFFSHORE && !scene->offshore.present)
+        return sb_reader_fail(reader, map, "sea",
+                              "source: offshore, but there is no block offshore, expected offshore: {cell: ...}");
+    if (!sb_scene_nested(scene)) {
+        if (scene->offshore.coupling == SB_COUPLING_ONE_WAY) return SB_OK;
+        return sb_reader_fail(reader, map, "offshore",
+                              "coupling: two-way needs particles, expected sea: {source: offshore}, or one-way");
+    }
+    if (!sb_yaml_child(block, "level")) scene->offshore.level = scene->sea.level;
+    if (scene->given.start > 0)
+        return sb_reader_fail(reader, map, "sea",
+                              "start: %g s, expected at most 0 with source offshore: the grid begins before the "
+                              "particles",
+                              scene->given.start);
+    return check_cover(reader, map, scene);
 }
 
 static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)
@@ -194,7 +243,8 @@ static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)
     sb_scene *scene = item;
     if (scene->control.enabled) scene->stream.enabled = true; /* it has the run's id and sends the replies */
     sb_status status = check_sea(reader, map, scene);
-    if (status != SB_OK || scene->offshore.present) return status;
+    if (status == SB_OK) status = finish_nested(reader, map, scene);
+    if (status != SB_OK || sb_scene_grid_alone(scene)) return status;
     sb_vec3 size = sb_sub(scene->domain.max, scene->domain.min);
     double least = size.x < size.z ? size.x : size.z;
     if (scene->dimensions == 3 && size.y < least) least = size.y;

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-static const char *const source_names[] = {"none", "theory", "table", "record", NULL};
+static const char *const source_names[] = {"none", "theory", "table", "record", "offshore", NULL};
 static const char *const given_wave_names[] = {"solitary", "regular", "components", NULL};
 static const char *const order_names[] = {"auto", "linear", "second-order", "cnoidal", NULL};
 static const char *const solitary_names[] = {"third-order", "boussinesq", NULL};
@@ -23,9 +23,11 @@ static unsigned variant(const void *item, const sb_yaml *map)
     case SB_GIVEN_TABLE:
         return GIVEN | TABLE;
     case SB_GIVEN_RECORD:
+        return GIVEN | RECORD;
+    case SB_GIVEN_OFFSHORE:
         break;
     }
-    return GIVEN | RECORD;
+    return GIVEN;
 }
 
 /* clang-format off */
@@ -63,7 +65,8 @@ static const sb_table given_side_table = {SB_KEY_ROWS(given_side_keys)};
 static const sb_key keys[] = {
     {.name = "source", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_given_sea, source), .words = source_names,
      .fallback = "none",
-     .doc = "Where the given water comes from: `theory`, a `table`, the `record` of an earlier run; `none`: still water."},
+     .doc = "Where the given water comes from: `theory`, a `table`, the `record` of an earlier run, or the depth-averaged "
+            "model of the block `offshore`; `none`: still water."},
     {.name = "level", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_given_sea, level), .unit = "m", SB_KEY_ANY,
      .applies = GIVEN, .only = "a source", .derived = "water.level", .doc = "Still-water level of the given water."},
     {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_given_sea, start), .unit = "s", SB_KEY_ANY,

@@ -175,8 +175,10 @@ static sb_status fill(record *made, const sb_scene *scene, sb_sea_notes *notes, 
     return status;
 }
 
-static sb_status create(const sb_scene *scene, void **state, sb_sea_notes *notes, sb_error *error)
+static sb_status create(const sb_scene *scene, const sb_offshore_start *grid, void **state, sb_sea_notes *notes,
+                        sb_error *error)
 {
+    (void)grid;
     record *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "sea");
     made->level = scene->given.level;
@@ -201,4 +203,4 @@ static double greatest_speed(const void *state)
     return ((const record *)state)->speed;
 }
 
-const sb_sea_form sb_sea_form_record = {create, at, greatest_surface, greatest_speed, destroy};
+const sb_sea_form sb_sea_form_record = {create, at, greatest_surface, greatest_speed, destroy, NULL};

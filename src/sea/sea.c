@@ -13,7 +13,8 @@ struct sb_sea_source {
 };
 
 /* In the order of sb_given_source. */
-static const sb_sea_form *const forms[] = {NULL, &sb_sea_form_theory, &sb_sea_form_table, &sb_sea_form_record};
+static const sb_sea_form *const forms[] = {NULL, &sb_sea_form_theory, &sb_sea_form_table, &sb_sea_form_record,
+                                           &sb_sea_form_offshore};
 
 /* Refuses water that the domain cannot hold, or that no run could follow. */
 static sb_status check_greatest(const sb_sea_source *sea, const sb_scene *scene, sb_error *error)
@@ -32,7 +33,7 @@ static sb_status check_greatest(const sb_sea_source *sea, const sb_scene *scene,
     return SB_OK;
 }
 
-sb_status sb_sea_create(const sb_scene *scene, sb_sea_source **out, sb_error *error)
+sb_status sb_sea_create(const sb_scene *scene, const sb_offshore_start *grid, sb_sea_source **out, sb_error *error)
 {
     sb_sea_source *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "the given sea");
@@ -40,7 +41,7 @@ sb_status sb_sea_create(const sb_scene *scene, sb_sea_source **out, sb_error *er
     made->level = made->form ? scene->given.level : scene->sea.level;
     made->start = scene->given.start;
     snprintf(made->notes.about, sizeof made->notes.about, "still water at %g m", made->level);
-    sb_status status = made->form ? made->form->create(scene, &made->state, &made->notes, error) : SB_OK;
+    sb_status status = made->form ? made->form->create(scene, grid, &made->state, &made->notes, error) : SB_OK;
     if (status == SB_OK && made->form) status = check_greatest(made, scene, error);
     if (status != SB_OK) {
         sb_sea_destroy(made);
@@ -61,6 +62,11 @@ void sb_sea_at(const sb_sea_source *sea, double t, double x, double y, double z,
 {
     *out = (sb_sea_point){.surface = sea->level};
     if (sea->form) sea->form->at(sea->state, t - sea->start, x, y, z, bed, out);
+}
+
+sb_offshore *sb_sea_grid(sb_sea_source *sea)
+{
+    return sea->form && sea->form->grid ? sea->form->grid(sea->state) : NULL;
 }
 
 double sb_sea_greatest_surface(const sb_sea_source *sea)

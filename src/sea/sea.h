@@ -1,12 +1,14 @@
-/* Given water: surface, velocity and acceleration at a place and time, from theory, a table or a record. (The name
+/* Given water: surface, velocity and acceleration at a place and time, from theory, a table, a record or a
+   depth-averaged model. (The name
    sb_sea is that of the scene's still water.) */
 #ifndef SB_SEA_SEA_H
 #define SB_SEA_SEA_H
 
 #include "base/status.h"
+#include "offshore/start.h"
 #include "scene/scene.h"
 
-/* Constant after its creation; safe for any number of threads. */
+/* Constant after its creation, unless it has a grid; safe for any number of threads. */
 typedef struct sb_sea_source sb_sea_source;
 
 typedef struct sb_sea_point {
@@ -16,15 +18,21 @@ typedef struct sb_sea_point {
 } sb_sea_point;
 
 /* Creates the source that the scene's block `sea` describes; without one it is still water. SB_BAD_INPUT names the file
-   and line, or the key, of what cannot be used. The scene must outlive it. */
-sb_status sb_sea_create(const sb_scene *scene, sb_sea_source **out, sb_error *error);
+   and line, or the key, of what cannot be used. The scene must outlive it. grid: the start of the depth-averaged model,
+   which the source `offshore` needs and copies; NULL with other sources. */
+sb_status sb_sea_create(const sb_scene *scene, const sb_offshore_start *grid, sb_sea_source **out, sb_error *error);
 void sb_sea_destroy(sb_sea_source *sea);
 
 /* The water at (x, y), m, and time t, s. bed: z of the bed there, m. The velocity is that at the height z; above the
    surface it is as at the surface. */
 void sb_sea_at(const sb_sea_source *sea, double t, double x, double y, double z, double bed, sb_sea_point *out);
 
-/* The highest surface, m, and the highest speed, m/s, at any time: upper bounds that are reached, or nearly. */
+/* The depth-averaged model that gives the water; NULL with other sources. It is valid as long as the source. The caller
+   steps it: sb_sea_at is then linear in time through its last two levels. */
+sb_offshore *sb_sea_grid(sb_sea_source *sea);
+
+/* The highest surface, m, and the highest speed, m/s, at any time: upper bounds that are reached, or nearly; with a
+   grid those at the start. */
 double sb_sea_greatest_surface(const sb_sea_source *sea);
 double sb_sea_greatest_speed(const sb_sea_source *sea);
 

@@ -71,8 +71,10 @@ static sb_status fill(table *made, const sb_scene *scene, sb_sea_notes *notes, s
     return status;
 }
 
-static sb_status create(const sb_scene *scene, void **state, sb_sea_notes *notes, sb_error *error)
+static sb_status create(const sb_scene *scene, const sb_offshore_start *grid, void **state, sb_sea_notes *notes,
+                        sb_error *error)
 {
+    (void)grid;
     table *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "sea");
     made->datum = scene->given.datum;
@@ -123,4 +125,4 @@ static double greatest_speed(const void *state)
     return most;
 }
 
-const sb_sea_form sb_sea_form_table = {create, at, greatest_surface, greatest_speed, destroy};
+const sb_sea_form sb_sea_form_table = {create, at, greatest_surface, greatest_speed, destroy, NULL};

@@ -83,8 +83,10 @@ static void destroy(void *state)
     sb_free(sea);
 }
 
-static sb_status create(const sb_scene *scene, void **state, sb_sea_notes *notes, sb_error *error)
+static sb_status create(const sb_scene *scene, const sb_offshore_start *grid, void **state, sb_sea_notes *notes,
+                        sb_error *error)
 {
+    (void)grid;
     const sb_given_sea *given = &scene->given;
     theory *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "sea");
@@ -186,4 +188,4 @@ static double greatest_speed(const void *state)
     return speed;
 }
 
-const sb_sea_form sb_sea_form_theory = {create, at, greatest_surface, greatest_speed, destroy};
+const sb_sea_form sb_sea_form_theory = {create, at, greatest_surface, greatest_speed, destroy, NULL};

@@ -12,6 +12,7 @@
 #include "frame/stage_time.h"
 #include "frame/step_report.h"
 #include "geometry/model/model.h"
+#include "offshore/offshore.h"
 #include "scene/scene.h"
 
 typedef struct sb_sim sb_sim;
@@ -86,6 +87,9 @@ sb_energy sb_sim_energy(const sb_sim *sim);
 /* Since t = 0. */
 const sb_ledger *sb_sim_ledger(const sb_sim *sim);
 const sb_crossing *sb_sim_crossing(const sb_sim *sim);
+/* The depth-averaged model that gives the water at sides of kind sea; NULL: the scene has none. Its time is at or after
+   that of the particles. */
+const sb_offshore *sb_sim_grid(const sb_sim *sim);
 
 const sb_departures *sb_sim_departures(const sb_sim *sim);
 

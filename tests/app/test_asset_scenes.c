@@ -43,8 +43,8 @@ static void every_scene_checks_and_runs(void **state)
 {
     (void)state;
     const char *const folder = SB_SOURCE_DIR "/assets/scenes";
-    static const char *const promised[] = {"plant.yaml", "dam-break-column.yaml", "solitary-flume.yaml",
-                                           "still-water.yaml", "open-sea.yaml"};
+    static const char *const promised[] = {"plant.yaml",       "dam-break-column.yaml", "solitary-flume.yaml",
+                                           "still-water.yaml", "open-sea.yaml",         "plant-coast.yaml"};
     for (size_t p = 0; p < sizeof promised / sizeof promised[0]; p++) {
         char path[1024];
         snprintf(path, sizeof path, "%s/%s", folder, promised[p]);

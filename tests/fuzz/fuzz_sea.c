@@ -35,7 +35,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                           .given = {.source = (sb_given_source)kind, .file = path, .plane = "p"}};
         sb_sea_source *sea = NULL;
         sb_error error = {0};
-        const sb_status status = sb_sea_create(&scene, &sea, &error);
+        const sb_status status = sb_sea_create(&scene, NULL, &sea, &error);
         if (status == SB_OK)
             check(sea);
         else

@@ -46,7 +46,7 @@ static inline sb_status sea_try(sea_case *c, const char *head, const char *block
     sea_write(c->scene_path, text);
     if (table) sea_write(c->table_path, table);
     sb_status status = sb_scene_read(c->scene_path, NULL, NULL, 0, &c->scene, &c->error);
-    return status == SB_OK ? sb_sea_create(&c->scene, &c->sea, &c->error) : status;
+    return status == SB_OK ? sb_sea_create(&c->scene, NULL, &c->sea, &c->error) : status;
 }
 
 static inline void sea_make(sea_case *c, const char *head, const char *block, const char *table)

@@ -11,6 +11,7 @@ void sb_model_free(sb_model *model)
     for (size_t i = 0; i < model->body_count; ++i) sb_mesh_free(&model->bodies[i].mesh);
     for (size_t i = 0; i < model->warning_count; ++i) sb_free(model->warnings[i]);
     for (int side = 0; side < 4; side++) sb_free(model->sea[side].bed);
+    sb_offshore_start_free(&model->grid);
     sb_free(model->facets.facets);
     sb_free(model->facets.edges);
     sb_free(model->bodies);
@@ -27,6 +28,7 @@ void sb_model_free_start(sb_model *model)
         still = sb_norm(model->fluid_velocity[i]) == 0;
     sb_free(model->fluid_position);
     sb_free(model->fluid_pressure);
+    sb_offshore_start_free(&model->grid);
     model->fluid_position = NULL;
     model->fluid_pressure = NULL;
     if (!still) return;

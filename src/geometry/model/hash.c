@@ -25,5 +25,11 @@ uint64_t sb_model_hash(const sb_model *model)
         if (model->sea[side].along > 0)
             hash =
                 sb_hash(hash, model->sea[side].bed, model->sea[side].along * model->sea[side].across * sizeof(double));
+    const size_t cells = model->grid.columns * model->grid.rows;
+    if (cells > 0) {
+        hash = sb_hash(hash, model->grid.bed, cells * sizeof(double));
+        hash = sb_hash(hash, model->grid.depth, cells * sizeof(double));
+        hash = sb_hash(hash, model->grid.hu, cells * sizeof(double));
+    }
     return hash;
 }

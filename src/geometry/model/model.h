@@ -6,6 +6,7 @@
 
 #include "geometry/facets/facet.h"
 #include "geometry/mesh/mesh.h"
+#include "offshore/start.h"
 #include "scene/scene.h"
 
 #include <math.h>
@@ -36,11 +37,12 @@ typedef struct sb_model_sea {
 typedef struct sb_model {
     sb_vec3 min, max; /* m, the domain; min is the origin of stored positions */
     int dimensions;
-    bool images;         /* walls reflect water */
-    double spacing;      /* m */
-    double still_depth;  /* m, D: the largest still depth of water */
-    double sea_depth;    /* m, the largest depth that a given sea reaches at its sides; 0: there is none */
-    sb_model_sea sea[4]; /* by side, from x_min to y_max */
+    bool images;            /* walls reflect water */
+    double spacing;         /* m */
+    double still_depth;     /* m, D: the largest still depth of water */
+    double sea_depth;       /* m, the largest depth that a given sea reaches at its sides; 0: there is none */
+    sb_model_sea sea[4];    /* by side, from x_min to y_max */
+    sb_offshore_start grid; /* of the depth-averaged model that gives the water there; empty with other sources */
     size_t fluid_count;
     sb_vec3 *fluid_position; /* m */
     sb_vec3 *fluid_velocity; /* m/s; NULL: freed, all zero */

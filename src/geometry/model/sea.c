@@ -2,6 +2,7 @@
 #include "geometry/model/parts.h"
 
 #include "base/memory.h"
+#include "geometry/grid/start.h"
 #include "sea/sea.h"
 
 /* Spacings by which the strip is wider than the support radius: a particle that is released at its inner edge has held
@@ -141,6 +142,7 @@ static sb_status warn_source(const sb_scene *scene, const sb_sea_source *sea, sb
                              "once; expected another sea.start or sea.level",
                              away);
     if (scene->given.source == SB_GIVEN_NONE) return SB_OK;
+    if (scene->given.source == SB_GIVEN_OFFSHORE) return SB_OK;
     if (scene->given.source != SB_GIVEN_THEORY) return warn_opposite(scene, model, error);
     double depth = (double)INFINITY;
     const int side = nearest_depth(scene, model, &depth);
@@ -160,8 +162,9 @@ sb_status sb_model_sea_sides(const sb_scene *scene, const sb_model_space *space,
         return sb_fail(error, SB_BAD_INPUT,
                        "domain.sides: a side of kind sea, but no water.level: expected the level "
                        "of the still water");
-    sb_sea_source *sea;
-    sb_status status = sb_sea_create(scene, &sea, error);
+    sb_sea_source *sea = NULL;
+    sb_status status = sb_scene_nested(scene) ? sb_grid_start_fill(scene, &model->grid, error) : SB_OK;
+    if (status == SB_OK) status = sb_sea_create(scene, &model->grid, &sea, error);
     if (status != SB_OK) return status;
     const double highest = sb_sea_greatest_surface(sea);
     for (int side = 0; side < 4 && status == SB_OK; side++) {

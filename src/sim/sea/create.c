@@ -66,7 +66,7 @@ sb_status sb_strip_create(sb_sim *sim, sb_error *error)
     sim->strip->still = true;
     for (size_t i = 0; sim->model->fluid_velocity && i < sim->model->fluid_count && sim->strip->still; i++)
         sim->strip->still = sb_norm(sim->model->fluid_velocity[i]) == 0;
-    const sb_status status = sb_sea_create(sim->scene, &sim->strip->sea, error);
+    const sb_status status = sb_sea_create(sim->scene, &sim->model->grid, &sim->strip->sea, error);
     for (int side = 0; side < 4 && status == SB_OK; side++) {
         if (!sb_scene_sea_side(sim->scene, side)) continue;
         if (create_side(sim, side, &sim->strip->side[sim->strip->count++]) != 0)
@@ -91,6 +91,7 @@ void sb_strip_destroy(sb_sim *sim)
     }
     sb_sea_destroy(sim->strip->sea);
     sb_free(sim->strip->held);
+    sb_free(sim->strip->jumps);
     sb_free(sim->strip);
     sim->strip = NULL;
 }
@@ -98,13 +99,14 @@ void sb_strip_destroy(sb_sim *sim)
 size_t sb_strip_bytes(const sb_sim *sim)
 {
     if (!sim->strip) return 0;
+    const sb_offshore *grid = sb_sea_grid(sim->strip->sea);
     size_t bytes = sizeof *sim->strip + sim->strip->held_capacity * sizeof *sim->strip->held;
     for (size_t k = 0; k < sim->strip->count; k++) {
         const sb_strip_side *s = &sim->strip->side[k];
         bytes += s->stations * (sizeof *s->station + SB_STATION_SUMS * sizeof *s->sums) +
                  s->columns * (2 * sizeof(int) + s->rows * (sizeof *s->owed + sizeof *s->correction + sizeof *s->left));
     }
-    return bytes;
+    return bytes + (grid ? sb_offshore_held(grid) : 0);
 }
 
 const sb_strip_side *sb_strip_side_of(const sb_strip *strip, sb_record at)

@@ -93,6 +93,21 @@ static double along_ground(const double velocity[3], const sb_strip_side *s, con
            velocity[s->other] * fmin(fmax(slope[1], -STEEP), STEEP);
 }
 
+void sb_strip_total(const sb_sim *sim, const sb_strip_side *s, double later, double inwards, double along,
+                    sb_column *water)
+{
+    const double g = (double)sim->constant.gravity, depth_in = fmax(water->depth, SHALLOW * sim->scene->resolution);
+    sb_outgoing w = outgoing_at(sim, s, along);
+    passing p = passing_at(s, &w, inwards, depth_in, g);
+    /* Farther from the measured water than the strip, and later, the wave's change of rate counts. */
+    const double delay = (s->strip - inwards) / sqrt(g * depth_in) - later;
+    p.value = w.value - delay * w.rate + 0.5 * delay * delay * w.curvature;
+    const double speed = fmax(sqrt(g * depth_in) - 0.25 * (p.value - p.disperse), 0);
+    water->depth = speed * speed / g;
+    water->inwards += 0.5 * (p.value + p.disperse);
+    water->pressure = -depth_in * depth_in / 6 * sqrt(depth_in / g) * w.curvature;
+}
+
 void sb_strip_source(const sb_sim *sim, const sb_strip_side *s, double t, sb_vec3 at, double bed, sb_sea_point *out)
 {
     if (sim->scene->given.source == SB_GIVEN_NONE || sb_scene_given_side(sim->scene, s->side))

@@ -1,4 +1,5 @@
 /* The state of strips in checkpoints and in the state hash. */
+#include "offshore/save.h"
 #include "base/hash.h"
 #include "sim/sea/strip.h"
 
@@ -10,6 +11,7 @@ enum { REALS = 5 };
 void sb_strip_save(const sb_sim *sim, sb_archive_out *out)
 {
     if (!sim->strip) return;
+    if (sb_sea_grid(sim->strip->sea)) sb_offshore_save(sb_sea_grid(sim->strip->sea), out);
     sb_put_flag(out, sim->strip->known);
     sb_put_count(out, sim->state.next_id);
     sb_put_list(out, &sim->state.crossing, sizeof sim->state.crossing / sizeof(double), sizeof(double));
@@ -53,6 +55,7 @@ static void load_side(sb_strip_side *s, sb_archive_in *in)
 void sb_strip_load(sb_sim *sim, sb_archive_in *in)
 {
     if (!sim->strip) return;
+    if (sb_sea_grid(sim->strip->sea)) sb_offshore_load(sb_sea_grid(sim->strip->sea), in);
     sim->strip->known = sb_take_flag(in);
     sim->state.next_id = (uint32_t)sb_take_count(in, UINT32_MAX);
     sb_take_list(in, &sim->state.crossing, sizeof sim->state.crossing / sizeof(double), sizeof(double));
@@ -63,6 +66,7 @@ void sb_strip_load(sb_sim *sim, sb_archive_in *in)
 uint64_t sb_strip_hash(const sb_sim *sim, uint64_t hash)
 {
     if (!sim->strip) return hash;
+    if (sb_sea_grid(sim->strip->sea)) hash = sb_offshore_hash(sb_sea_grid(sim->strip->sea), hash);
     hash = sb_hash(hash, &sim->state.next_id, sizeof sim->state.next_id);
     hash = sb_hash(hash, &sim->state.ledger.sea, sizeof sim->state.ledger.sea);
     hash = sb_hash(hash, &sim->state.crossing, sizeof sim->state.crossing);

@@ -52,6 +52,8 @@ typedef struct sb_strip {
     sb_strip_side side[4];
     sb_held *held; /* of a step, in the order of the particles */
     size_t held_count, held_capacity;
+    sb_offshore_jump *jumps; /* of the grid's present step */
+    size_t jump_capacity;
     double solve_work, hold_work; /* per unit of mass, of a step: by the pressure, and by holding */
     sb_vec3 push;                 /* kg m/s, momentum that held particles got in a step to have their velocity */
     bool still;                   /* the water starts at rest, at the level of the scene */
@@ -91,11 +93,24 @@ void sb_strip_source(const sb_sim *sim, const sb_strip_side *s, double t, sb_vec
 /* Height of the ground there, m. */
 double sb_strip_bed(const sb_sim *sim, const sb_strip_side *s, double inwards, double along);
 
+/* Water over its depth: depth, m, mean velocity inwards, m/s, integrated non-hydrostatic pressure over density,
+   m^3/s^2. sb_strip_total adds the outgoing wave of a place beyond the side, `later` seconds after the measurement, and
+   sets the pressure to that of this wave. */
+typedef struct sb_column {
+    double depth, inwards, pressure;
+} sb_column;
+void sb_strip_total(const sb_sim *sim, const sb_strip_side *s, double later, double inwards, double along,
+                    sb_column *water);
+
 /* 1 in water that is free, falling to 0 at the strip of a neighbouring side, whose water is given and not measured. */
 double sb_strip_free_part(const sb_sim *sim, const sb_strip_side *s, double along);
 
 /* measure.c: measures the outgoing waves of all sides at the present time, and advances them by the time step. */
 sb_status sb_strip_measure(sb_sim *sim, sb_error *error);
+
+/* nest.c: steps the depth-averaged model, if it gives the water, to the end of the present step or beyond; two-way it
+   gets the outgoing waves, which must be measured before. */
+sb_status sb_strip_advance_grid(sb_sim *sim, sb_error *error);
 
 /* Stages. inflow.c: measures, and lets particles in; what is outside of the domain leaves with the sort. */
 sb_status sb_stage_inflow(sb_sim *sim, sb_error *error);

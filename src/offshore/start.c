@@ -1,0 +1,112 @@
+#include "offshore/start.h"
+
+#include "base/memory.h"
+#include "physics/wave_theory.h"
+
+#include <math.h>
+
+void sb_offshore_start_free(sb_offshore_start *start)
+{
+    if (!start) return;
+    sb_free(start->bed);
+    sb_free(start->depth);
+    sb_free(start->hu);
+    *start = (sb_offshore_start){0};
+}
+
+/* Whether the grid ends where the domain does. */
+static bool ends_with_domain(const sb_scene *scene, int side)
+{
+    const sb_offshore_settings *o = &scene->offshore;
+    const double at[] = {o->x_min, o->x_max, o->y_min, o->y_max};
+    const double domain[] = {scene->domain.min.x, scene->domain.max.x, scene->domain.min.y, scene->domain.max.y};
+    return fabs(at[side] - domain[side]) <= 1e-6 * o->cell;
+}
+
+static sb_offshore_side side_of(const sb_scene *scene, int side)
+{
+    switch (scene->offshore.side[side]) {
+    case SB_GRID_SIDE_OPEN:
+        return SB_OFFSHORE_OPEN;
+    case SB_GRID_SIDE_PERIODIC:
+        return SB_OFFSHORE_PERIODIC;
+    case SB_GRID_SIDE_WALL:
+        return SB_OFFSHORE_WALL;
+    case SB_GRID_SIDE_DOMAIN:
+        break;
+    }
+    if (sb_scene_nested(scene) && !ends_with_domain(scene, side)) return SB_OFFSHORE_OPEN;
+    switch (scene->domain.side[side]) {
+    case SB_SIDE_OPEN:
+    case SB_SIDE_SEA: /* one that only lets waves out */
+        return SB_OFFSHORE_OPEN;
+    case SB_SIDE_PERIODIC:
+        return SB_OFFSHORE_PERIODIC;
+    case SB_SIDE_WALL:
+        break;
+    }
+    return SB_OFFSHORE_WALL;
+}
+
+sb_offshore_options sb_offshore_options_of(const sb_scene *scene, size_t columns, size_t rows)
+{
+    const sb_offshore_settings *o = &scene->offshore;
+    sb_offshore_options options = {.columns = columns,
+                                   .rows = rows,
+                                   .x = o->x_min,
+                                   .y = scene->dimensions == 2 ? -0.5 * o->cell : o->y_min,
+                                   .cell = o->cell,
+                                   .gravity = scene->fluid.gravity,
+                                   .manning = o->manning,
+                                   .level = o->level,
+                                   .dispersion = o->dispersion};
+    for (int s = 0; s < SB_OFFSHORE_SIDES; s++) options.side[s] = side_of(scene, s);
+    return options;
+}
+
+/* Elevation of the initial wave above the still water, and its velocity along x. */
+static double wave_at(const sb_scene *scene, double x, double *u)
+{
+    const sb_initial_wave *wave = &scene->offshore.wave;
+    *u = 0;
+    if (wave->kind == SB_INITIAL_STANDING)
+        return sb_standing_elevation(wave->height, wave->wavelength, x - wave->position);
+    if (wave->kind == SB_INITIAL_NONE) return 0;
+    const sb_solitary solitary = {wave->height, wave->depth, scene->fluid.gravity, wave->theory};
+    const double eta = sb_solitary_elevation(&solitary, (x - wave->position) * wave->direction);
+    /* Continuity of a wave of constant form gives the mean over the depth. */
+    *u = wave->direction * sb_solitary_celerity(&solitary) * eta / (wave->depth + eta);
+    return eta;
+}
+
+sb_status sb_offshore_start_water(const sb_scene *scene, sb_offshore_start *start, sb_error *error)
+{
+    const sb_offshore_settings *o = &scene->offshore;
+    start->wet = 0;
+    start->deepest = start->fastest = 0;
+    start->highest = o->level;
+    for (size_t k = 0; k < start->columns * start->rows; k++) {
+        const double x = o->x_min + ((double)(k % start->columns) + 0.5) * o->cell;
+        const double still = o->level - start->bed[k];
+        double u = 0;
+        start->depth[k] = still > 0 ? fmax(0, still + start->depth[k] + wave_at(scene, x, &u)) : 0;
+        start->hu[k] = start->depth[k] * u;
+        if (!(start->depth[k] > 0)) continue;
+        start->wet++;
+        start->deepest = fmax(start->deepest, start->depth[k]);
+        start->highest = fmax(start->highest, start->bed[k] + start->depth[k]);
+        start->fastest = fmax(start->fastest, fabs(u));
+    }
+    if (start->wet > 0) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT,
+                   "offshore.level: %g m is below the whole bed, expected water somewhere; check the level, and "
+                   "datum and positive of the terrain",
+                   o->level);
+}
+
+sb_status sb_offshore_begin(const sb_scene *scene, const sb_offshore_start *start, sb_offshore **offshore,
+                            sb_error *error)
+{
+    const sb_offshore_options options = sb_offshore_options_of(scene, start->columns, start->rows);
+    return sb_offshore_create(&options, start->bed, start->depth, start->hu, NULL, offshore, error);
+}

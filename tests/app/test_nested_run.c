@@ -1,0 +1,122 @@
+/* Runs whose sea is a depth-averaged model beside the particles, as a user makes them. */
+#include "base/memory.h"
+#include "pair.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* 0.4 m of water: particles on 4 m before a wall, the grid on 10 m. */
+#define HEAD                                                                                                           \
+    "title: t\ndimensions: 2\nresolution: 0.04\nduration: 3\nnumerics: {settle_steps: 20}\n"                           \
+    "output: {plots: false, particle_interval: 0.5}\n"                                                                 \
+    "measure: {interval: 0.02, gauges: [{name: g, x: 1.2}]}\n"                                                         \
+    "water: {level: 0.4, seed: [1, 0.2]}\ndomain: {min: [0, 0], max: [4, 0.8], sides: {x_min: sea}}\n"                 \
+    "sea: {source: offshore}\n"
+#define GRID(more)                                                                                                     \
+    "offshore: {cell: 0.04, min: [-6], max: [4], manning: 0, sides: {x_min: wall}, " more                              \
+    "wave: {kind: solitary, height: 0.1, depth: 0.4, position: -2, theory: serre}}\n"
+
+/* A row of gauges.csv per instant: the highest surface over the still level from a time to another. */
+static double highest_between(const char *run, double from, double to)
+{
+    char path[64];
+    snprintf(path, sizeof path, "%s/gauges.csv", run);
+    char *table = text_of(path), *save = NULL;
+    double highest = -1;
+    for (char *row = strtok_r(table, "\n", &save); row; row = strtok_r(NULL, "\n", &save)) {
+        const char *eta = strstr(row, ",g,");
+        const double time = strtod(row, NULL);
+        if (eta && time >= from && time < to) highest = fmax(highest, strtod(eta + 3, NULL));
+    }
+    sb_free(table);
+    return highest;
+}
+
+/* Depths of the cells of a grid file, which are the first 250 of the second array. */
+static void depths_of(const char *path, float depth[250])
+{
+    FILE *file = fopen(in_folder("%s", path), "rb");
+    static char bytes[1 << 16];
+    assert_non_null(file);
+    const size_t length = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    const char *start = memmem(bytes, length, "encoding=\"raw\">\n_", 17);
+    assert_non_null(start);
+    start += 17 + 8 + 250 * sizeof(float) + 8;
+    assert_true(start + 250 * sizeof(float) <= bytes + length);
+    memcpy(depth, start, 250 * sizeof(float));
+}
+
+/* Volume of the grid's water outside of the particles' domain, and its highest surface there. */
+static double volume_outside(const char *path, double *highest)
+{
+    float depth[250];
+    double volume = 0;
+    depths_of(path, depth);
+    *highest = -1;
+    for (int i = 0; i < 150; i++) {
+        volume += 0.04 * (double)depth[i];
+        if (i < 140) *highest = fmax(*highest, (double)depth[i] - 0.4);
+    }
+    return volume;
+}
+
+/* The wave of the grid passes the gauge, is reflected by the wall, and continues in the grid. Ten layers of water: the
+   bounds of its height are wide. */
+static void a_wave_comes_in_and_leaves(void **state)
+{
+    (void)state;
+    double highest, first = 0;
+    write_text("nested.yaml", HEAD GRID("coupling: two-way, "));
+    outcome o = RUN(0, "check", "nested.yaml");
+    assert_contains(o.out, "the depth-averaged model, 250 x 1 cells of 0.04 m, two-way");
+    assert_contains(o.out, "  grid               250 cells");
+    outcome_free(&o);
+    RUN_AND_FORGET(0, "run", "nested.yaml", "--out", "two-way", "--quiet", "--set", "duration=6");
+    assert_near(highest_between("two-way", 0, 2.4), 0.1, 0.008);
+    first = volume_outside("two-way/grid/000001.vti", &highest);
+    assert_near(highest, 0.1, 1e-3);
+    const double last = volume_outside("two-way/grid/000013.vti", &highest);
+    assert_near(highest, 0.1, 0.006);
+    assert_near(last, first, 1e-3 * (first + 1.6)); /* and as much is in the particles as at the start */
+    assert_true(highest_between("two-way", 5.6, 6) < 0.006);
+}
+
+static void bits_are_those_of_any_threads_and_of_a_resumed_run(void **state)
+{
+    (void)state;
+    static const char *const files[] = {"gauges.csv", "energy.csv", "grid.pvd", "grid/000003.vti", NULL};
+    write_text("nested.yaml", HEAD GRID("coupling: two-way, "));
+    RUN_AND_FORGET(0, "run", "nested.yaml", "--out", "whole", "--quiet", "--until", "1.2", "--threads", "1");
+    RUN_AND_FORGET(0, "run", "nested.yaml", "--out", "threads", "--quiet", "--until", "1.2", "--threads", "2");
+    RUN_AND_FORGET(0, "run", "nested.yaml", "--out", "parts", "--quiet", "--until", "0.7");
+    RUN_AND_FORGET(0, "run", "nested.yaml", "--out", "parts", "--quiet", "--until", "1.2", "--resume");
+    for (size_t f = 0; files[f]; f++) {
+        assert_same_file("whole", "threads", files[f]);
+        assert_same_file("whole", "parts", files[f]);
+    }
+}
+
+/* Without a wave nothing comes in, in either direction, beyond the noise of particles. */
+static void water_at_rest_stays(void **state)
+{
+    (void)state;
+    double highest;
+    write_text("nested.yaml", HEAD GRID("coupling: two-way, "));
+    RUN_AND_FORGET(0, "run", "nested.yaml", "--out", "rest", "--quiet", "--set", "offshore.wave={kind: none}");
+    assert_near(volume_outside("rest/grid/000007.vti", &highest), 2.4, 2.4e-3);
+    assert_true(fabs(highest) < 0.004); /* a tenth of a spacing */
+    assert_true(highest_between("rest", 0, 3) < 0.004);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_wave_comes_in_and_leaves),
+        cmocka_unit_test(bits_are_those_of_any_threads_and_of_a_resumed_run),
+        cmocka_unit_test(water_at_rest_stays),
+    };
+    return cmocka_run_group_tests(tests, program_setup, program_teardown);
+}
