@@ -320,10 +320,22 @@ typedef struct sb_camera_key {
     sb_vec3 eye, target;
     double fov;
 } sb_camera_key;
+typedef enum sb_water_style { SB_WATER_SURFACE, SB_WATER_PARTICLES } sb_water_style;
+typedef enum sb_water_color {
+    SB_COLOR_SPEED,
+    SB_COLOR_PRESSURE,
+    SB_COLOR_VORTICITY,
+    SB_COLOR_DEPTH,
+    SB_COLOR_MOMENTUM_FLUX,
+    SB_WATER_COLORS
+} sb_water_color;
 typedef struct sb_camera {
     char name[SB_NAME_MAX];
     size_t key_count; /* 1: fixed; more: a path, smooth between keys in time */
     sb_camera_key *keys;
+    sb_water_style style;
+    sb_water_color color;
+    double color_min, color_max; /* in the unit of the colour's field; both 0: a range that fits the scene */
 } sb_camera;
 
 typedef struct sb_render_settings {
@@ -331,7 +343,10 @@ typedef struct sb_render_settings {
     int width, height; /* px */
     double speed_max;  /* m/s at the top of the colour map; 0: 2 sqrt(g D) of the scene */
     int video_rate;    /* pictures per second of video */
-    bool video;        /* join pictures to <camera>.mp4 if ffmpeg is installed */
+    bool shadows, occlusion;
+    bool wet_ground;     /* ground that the water has reached is darker */
+    bool greatest_depth; /* the greatest depth so far is painted on the terrain */
+    bool video;          /* join pictures to <camera>.mp4 if ffmpeg is installed */
     size_t camera_count;
     sb_camera *cameras;
 } sb_render_settings;

@@ -39,6 +39,9 @@ static unsigned camera_variant(const void *item, const sb_yaml *map)
     return path ? PATH : FIXED;
 }
 
+static const char *const style_words[] = {"surface", "particles", NULL};
+static const char *const color_words[] = {"speed", "pressure", "vorticity", "depth", "momentum_flux", NULL};
+
 /* clang-format off */
 static const sb_key camera_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_camera, name), .flags = SB_KEY_REQUIRED,
@@ -48,12 +51,24 @@ static const sb_key camera_keys[] = {
      .doc = "Path of a moving camera: two or more places with times, connected smoothly."},
     {.type = SB_KEY_LIST, SB_KEY_ITEMS(sb_camera, keys, key_count), .table = &view_table,
      .applies = FIXED, .only = "a camera without path"},
+    {.name = "style", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_camera, style), .words = style_words,
+     .fallback = "surface", .doc = "How the water is drawn: a smooth surface, or its particles as spheres."},
+    {.name = "color", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_camera, color), .words = color_words,
+     .fallback = "speed", .doc = "Field that colours the water; see [pictures](pictures.md#colours)."},
+    {.name = "color_min", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera, color_min), SB_KEY_ANY, .fallback = "0",
+     .doc = "Value at the lower end of the colour map, in the field's unit."},
+    {.name = "color_max", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera, color_max), SB_KEY_ANY, .fallback = "0",
+     .doc = "Value at the upper end, above color_min; 0 with color_min 0: chosen for the scene."},
 };
 /* clang-format on */
 
 static sb_status finish_camera(sb_reader *reader, const sb_yaml *map, void *item)
 {
     const sb_camera *camera = item;
+    const bool chosen = camera->color_min == 0 && camera->color_max == 0;
+    if (!chosen && !(camera->color_max > camera->color_min))
+        return sb_reader_fail(reader, map, "color_max", "is %g, expected more than color_min, %g", camera->color_max,
+                              camera->color_min);
     if (!(camera_variant(camera, map) & PATH)) return finish_view(reader, map, camera->keys);
     if (camera->key_count < 2)
         return sb_reader_fail(reader, map, "path", "has %zu entries, expected at least 2, or eye and target instead",
@@ -88,6 +103,14 @@ static const sb_key render_keys[] = {
     {.name = "video_rate", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_render_settings, video_rate),
      .unit = "1/s", .min = 1, .max = 240, .fallback = "30", .flags = SB_KEY_FREE,
      .doc = "Pictures per second of the film."},
+    {.name = "shadows", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, shadows), .fallback = "true",
+     .doc = "Whether bodies and water cast shadows."},
+    {.name = "occlusion", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, occlusion), .fallback = "true",
+     .doc = "Whether corners and gaps are darker, because near surfaces hide a part of the sky."},
+    {.name = "wet_ground", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, wet_ground), .fallback = "true",
+     .doc = "Whether ground and walls that the water has reached are darker."},
+    {.name = "greatest_depth", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, greatest_depth),
+     .fallback = "false", .doc = "Whether the greatest depth so far is painted on terrain above the still water."},
     {.name = "cameras", .type = SB_KEY_LIST,
      SB_KEY_ITEMS(sb_render_settings, cameras, camera_count), .table = &camera_table,
      .doc = "Cameras. Each makes its own pictures and film, and has eye and target, or a path."},

@@ -16,7 +16,7 @@ static void fixed_camera_stays(void **state)
 {
     (void)state;
     sb_camera_key key = {5, {1, 2, 3}, {4, 5, 6}, 40};
-    sb_camera camera = {"fixed", 1, &key};
+    sb_camera camera = {.name = "fixed", .key_count = 1, .keys = &key};
     for (double t = -10; t < 100; t += 15) {
         sb_camera_key at = sb_camera_at(&camera, t);
         near_vec(at.eye, key.eye, 0);
@@ -32,7 +32,7 @@ static void path_passes_keys_with_continuous_velocity(void **state)
                             {2, {20, 5, 12}, {2, 1, 0}, 50},
                             {7, {60, -5, 30}, {3, 0, 5}, 60},
                             {10, {80, 0, 20}, {9, 9, 9}, 45}};
-    sb_camera camera = {"path", 4, keys};
+    sb_camera camera = {.name = "path", .key_count = 4, .keys = keys};
     const double d = 1e-5;
     for (int k = 0; k < 4; k++) {
         sb_camera_key at = sb_camera_at(&camera, keys[k].time);
@@ -56,7 +56,7 @@ static void two_keys_ease_in_and_out(void **state)
 {
     (void)state;
     sb_camera_key keys[] = {{10, {0, 0, 0}, {0, 1, 0}, 30}, {20, {8, 0, 0}, {0, 1, 0}, 50}};
-    sb_camera camera = {"ease", 2, keys};
+    sb_camera camera = {.name = "ease", .key_count = 2, .keys = keys};
     near_vec(sb_camera_at(&camera, 15).eye, sb_vec(4, 0, 0), 1e-12);
     near_vec(sb_camera_at(&camera, 12.5).eye, sb_vec(8 * 0.15625, 0, 0), 1e-12);
     assert_true(fabs(sb_camera_at(&camera, 15).fov - 40) < 1e-12);

@@ -61,7 +61,7 @@ static void set_stage(struct stage *stage, sb_vec3 at, int height)
 {
     memset(stage, 0, sizeof *stage);
     stage->key = (sb_camera_key){0, sb_add(at, sb_vec(0, -24, 0)), at, 60};
-    stage->camera = (sb_camera){"front", 1, &stage->key};
+    stage->camera = (sb_camera){.name = "front", .key_count = 1, .keys = &stage->key};
     stage->scene.title = "A block of water";
     stage->scene.fluid.gravity = 9.81;
     stage->scene.render = (sb_render_settings){.width = height * WIDTH / HEIGHT,
