@@ -59,24 +59,23 @@ static const char body[] =
 
 /* The water reflects the sky by Schlick's formula, and has the colour of the field otherwise. Its reflection is weaker
    than that of real water, so that colours read as values. */
-static const char water[] =
-    "vec3 normal_of(vec4 w) {\n"
-    "  vec3 n = vec3(w.zw, sqrt(max(1.0 - dot(w.zw, w.zw), 0.0)));\n"
-    "  return normalize(right * n.x + up * n.y + back * n.z);\n"
-    "}\n"
-    "vec3 water_at(ivec2 p, vec4 w, vec3 bed, float clear, float open) {\n"
-    "  vec3 place = eye + ray(p) * w.x, to_eye = -normalize(ray(p)), n = normal_of(w);\n"
-    "  float shadow = sunny(place, shade_bias);\n"
-    "  vec3 albedo = texture(colors, vec2(w.y, 0.5)).rgb;\n"
-    "  vec3 c = mix(0.8 * lit(albedo * albedo, place, n, shadow, open), bed, clear);\n"
-    "  float facing = clamp(dot(n, to_eye), 0.0, 1.0);\n"
-    "  float f = 1.0 - facing; f *= f; f *= f * (1.0 - facing);\n"
-    "  vec3 mirrored = reflect(-to_eye, n);\n"
-    "  float spark = pow(max(dot(mirrored, sun), 0.0), 90.0) * shadow;\n"
-    "  mirrored.z = abs(mirrored.z);\n"
-    "  c = mix(c, sky(mirrored), 0.02 + 0.34 * f) + spark * vec3(0.30, 0.28, 0.24);\n"
-    "  return hazed(c, place);\n"
-    "}\n";
+static const char water[] = "vec3 normal_of(vec4 w) {\n"
+                            "  vec3 n = vec3(w.zw, sqrt(max(1.0 - dot(w.zw, w.zw), 0.0)));\n"
+                            "  return normalize(right * n.x + up * n.y + back * n.z);\n"
+                            "}\n"
+                            "vec3 water_at(ivec2 p, vec4 w, vec3 bed, float clear, float open) {\n"
+                            "  vec3 place = eye + ray(p) * w.x, to_eye = -normalize(ray(p)), n = normal_of(w);\n"
+                            "  float shadow = sunny(place, shade_bias);\n"
+                            "  vec3 albedo = texture(colors, vec2(w.y, 0.5)).rgb;\n"
+                            "  vec3 c = mix(0.8 * lit(albedo * albedo, place, n, shadow, open), bed, clear);\n"
+                            "  float facing = clamp(dot(n, to_eye), 0.0, 1.0);\n"
+                            "  float f = 1.0 - facing; f *= f; f *= f * (1.0 - facing);\n"
+                            "  vec3 mirrored = reflect(-to_eye, n);\n"
+                            "  float spark = pow(max(dot(mirrored, sun), 0.0), 90.0) * shadow;\n"
+                            "  mirrored.z = abs(mirrored.z);\n"
+                            "  c = mix(c, sky(mirrored), 0.02 + 0.34 * f) + spark * vec3(0.30, 0.28, 0.24);\n"
+                            "  return hazed(c, place);\n"
+                            "}\n";
 
 /* Shallow water transmits the bed's light by exp(-thickness / clarity); refraction moves the bed. */
 static const char shallow[] =

@@ -121,8 +121,9 @@ static void add(const struct grid *grid, const float *p, const float *parts)
         for (size_t k = 0; k < grid->parts; k++) grid->node[node[c] + k] += weight[c] * parts[k];
 }
 
-/* Depth, or depth times the square of the horizontal speed: sums over the column of water. With cells of two spacings, the
-   weights of a lattice's particles have the same sum at each node. Columns of a slice have the width of a spacing. */
+/* Depth, or depth times the square of the horizontal speed: sums over the column of water. With cells of two spacings,
+   the weights of a lattice's particles have the same sum at each node. Columns of a slice have the width of a spacing.
+ */
 static sb_status compute_columns(sb_values *values, const sb_frame *frame, bool flux, sb_error *error)
 {
     struct grid grid;
@@ -217,10 +218,18 @@ sb_status sb_values_compute(sb_values *values, const sb_frame *frame, sb_water_c
         return sb_fail_memory(error, "the colours of the water");
     sb_status status = SB_OK;
     switch (color) {
-    case SB_COLOR_VORTICITY: status = compute_vorticity(values, frame, error); break;
-    case SB_COLOR_DEPTH: status = compute_columns(values, frame, false, error); break;
-    case SB_COLOR_MOMENTUM_FLUX: status = compute_columns(values, frame, true, error); break;
-    default: copy_own(values, frame, color == SB_COLOR_PRESSURE); break;
+    case SB_COLOR_VORTICITY:
+        status = compute_vorticity(values, frame, error);
+        break;
+    case SB_COLOR_DEPTH:
+        status = compute_columns(values, frame, false, error);
+        break;
+    case SB_COLOR_MOMENTUM_FLUX:
+        status = compute_columns(values, frame, true, error);
+        break;
+    default:
+        copy_own(values, frame, color == SB_COLOR_PRESSURE);
+        break;
     }
     const float low = (float)min, scale = (float)(1 / (max - min));
     for (size_t i = 0; i < frame->count && status == SB_OK; i++) {

@@ -16,7 +16,8 @@ typedef struct sb_field {
 } sb_field;
 extern const sb_field sb_fields[SB_WATER_COLORS];
 
-/* The values of a frame's particles. Kept from frame to frame, so that its memory is reused. A zeroed struct is empty. */
+/* The values of a frame's particles. Kept from frame to frame, so that its memory is reused. A zeroed struct is empty.
+ */
 typedef struct sb_values {
     size_t capacity, node_capacity;
     float *list; /* per particle: 0..1 between min and max of the field, clamped */

@@ -5,6 +5,7 @@
 #include "render/compose.h"
 #include "render/context.h"
 #include "render/fields.h"
+#include "render/marks.h"
 #include "render/overlay.h"
 #include "render/soften.h"
 
@@ -13,8 +14,8 @@ enum { SCENERIES = 4, TOPS_SIDE_MAX = 1024 };
 struct sb_renderer {
     const sb_scene *scene;
     int width, height;
-    sb_vec3 min, max;         /* m, scene: domain and meshes */
-    double depth, wave_speed; /* m, m/s: of the still water */
+    sb_vec3 min, max; /* m, scene: domain and meshes */
+    double depth;     /* m, from the still water to the lowest ground */
     sb_context *context;
     GLuint framebuffer, color, depth_buffer;
     sb_meshes *meshes;
@@ -63,6 +64,17 @@ static double sea_level(const sb_scene *scene)
     return level;
 }
 
+/* The depth from what is known with and without the water of the start: the model of stored frames has bodies only. */
+static double depth_of(const sb_renderer *r)
+{
+    const sb_ground *ground = &r->light.solid;
+    double lowest = HUGE_VAL;
+    for (size_t i = 0; i < (size_t)ground->side * (size_t)ground->side; i++)
+        lowest = fmin(lowest, (double)ground->height[i]);
+    lowest = fmax(lowest + ground->origin.z, ground->floor_level);
+    return fmax(r->light.sea_level - lowest, r->scene->resolution);
+}
+
 /* The context must be current. */
 static sb_status make_passes(sb_renderer *r, const sb_model *model, sb_error *error)
 {
@@ -71,6 +83,7 @@ static sb_status make_passes(sb_renderer *r, const sb_model *model, sb_error *er
     if (status == SB_OK)
         status = sb_light_create(r->meshes, model->min, r->min, r->max, sea_level(r->scene), &r->light, error);
     r->light.solid.floor_level = model->min.z;
+    if (status == SB_OK) r->depth = depth_of(r);
     r->light.shadows = r->scene->render.shadows;
     if (status == SB_OK) status = sb_water_create(r->width, r->height, &r->water, error);
     if (status == SB_OK && r->scene->render.occlusion)
@@ -90,8 +103,6 @@ sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_re
     r->scene = scene;
     r->width = width;
     r->height = height;
-    r->wave_speed = sb_model_wave_speed(scene, model);
-    r->depth = r->wave_speed * r->wave_speed / scene->fluid.gravity;
     r->reached_time = -HUGE_VAL;
     find_bounds(r, model);
     sb_status status = SB_OK;
@@ -228,8 +239,20 @@ static void find_range(const sb_renderer *r, const sb_camera *camera, double ran
     range[0] = camera->color_min;
     range[1] = camera->color_max;
     if (range[0] != 0 || range[1] != 0) return;
-    range[1] = sb_fields[camera->color].range(r->scene, r->depth, r->wave_speed);
+    range[1] = sb_fields[camera->color].range(r->scene, r->depth, sqrt(r->scene->fluid.gravity * r->depth));
     if (!(range[1] > 0) || !isfinite(range[1])) range[1] = 1;
+}
+
+static sb_status draw_marks(const sb_renderer *r, const sb_frame *frame, size_t camera, const sb_view *view,
+                            sb_vec3 target, const double range[2], sb_image *image, sb_error *error)
+{
+    const sb_render_settings *settings = &r->scene->render;
+    const sb_field *field = &sb_fields[settings->cameras[camera].color];
+    const sb_legend legend = {field->label, field->map, range[0], range[1]};
+    sb_status status = sb_overlay_draw(image, r->scene->title, frame->status.time, &legend, error);
+    if (status == SB_OK && settings->scale_bar) status = sb_marks_scale(image, view, target, error);
+    if (status == SB_OK) status = sb_marks_north(image, view, target, settings->north, error);
+    return status;
 }
 
 sb_status sb_renderer_draw(sb_renderer *renderer, const sb_frame *frame, size_t camera, sb_image *image,
@@ -253,9 +276,7 @@ sb_status sb_renderer_draw(sb_renderer *renderer, const sb_frame *frame, size_t 
     sb_context_leave(r->context);
     if (status != SB_OK) return status;
     sb_soften(r->pixels, image);
-    const sb_legend legend = {sb_fields[settings->cameras[camera].color].label,
-                              sb_fields[settings->cameras[camera].color].map, range[0], range[1]};
-    return sb_overlay_draw(image, r->scene->title, frame->status.time, &legend, error);
+    return draw_marks(r, frame, camera, &view, key.target, range, image, error);
 }
 
 void sb_renderer_destroy(sb_renderer *renderer)

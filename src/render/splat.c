@@ -1,5 +1,5 @@
 /* Draws surface elements: discs whose depths, normals and values are blended by smooth weights (surface splatting
-   [Zwicker et al. 2001], with the blending of all discs near the first surface). */
+   [Zwicker et al. 2001], with the blending of all discs near the first and near the second surface along a ray). */
 #include "render/splat.h"
 
 #include "base/memory.h"
@@ -14,18 +14,17 @@ static const float drop_spacings = 0.3f; /* radius of a single drop */
 static const float front_weight = 0.16f;
 /* The sum of weights at the edge of a surface: no water and only water. An unbroken layer of discs has about 2.7. */
 static const float cover_none = 0.22f, cover_all = 0.62f;
-/* What is kept of the discs behind the first surface, and up to which multiple of the distance of one surface. */
-static const float fade_share = 0.08f, fade_rooms = 5;
 static const float drop_opacity = 1.4f; /* optical thickness at the centre of a drop */
 
 /* The pixels of a few rows, while they are drawn. Sums: weight, and weight times depth, value, normal,
-   thickness; weight of all discs, near the first surface or behind it. */
+   thickness, 0. */
 struct band {
     int first_row, rows, width;
-    float *sums;                 /* SUMS per pixel */
-    float *front;                /* m */
-    float *drops;                /* per pixel: optical thickness, its product with value, depth */
-    float *weight, *depth, *ray; /* of one row */
+    float *sums;           /* SUMS per pixel */
+    float *second_sums;    /* of the discs near the second surface */
+    float *front, *second; /* m, nearest depths of the two surfaces */
+    float *drops;          /* per pixel: optical thickness, its product with value, depth */
+    float *weight, *depth; /* of one row */
 };
 
 struct lens {
@@ -37,13 +36,9 @@ struct lens {
 static struct lens lens_of(const sb_splat *splat, const sb_view *view, double spacing)
 {
     const float step = (float)(2 * view->tangent / splat->height);
-    return (struct lens){splat->width,
-                         splat->height,
-                         step,
-                         -0.5f * step * (float)splat->width,
-                         -0.5f * step * (float)splat->height,
-                         (float)view->near,
-                         (float)spacing};
+    return (struct lens){
+        splat->width,      splat->height, step, -0.5f * step * (float)splat->width, -0.5f * step * (float)splat->height,
+        (float)view->near, (float)spacing};
 }
 
 struct box {
@@ -92,49 +87,62 @@ SB_INLINE void weigh_row(const struct lens *lens, const sb_surfel *s, int row, i
     }
 }
 
-SB_INLINE void find_front(struct band *band, const struct lens *lens, const sb_surfel *s)
+/* Distance along the ray within which discs are parts of one surface. It is larger where the surface is seen at a small
+   angle. */
+SB_INLINE float room_of(const struct lens *lens, const sb_surfel *s)
 {
-    const float radius = s->radius;
-    const struct box box = box_of(lens, s, radius);
+    const float distance = sqrtf(s->place[0] * s->place[0] + s->place[1] * s->place[1] + s->place[2] * s->place[2]);
+    const float facing = -(s->normal[0] * s->place[0] + s->normal[1] * s->place[1] + s->normal[2] * s->place[2]);
+    return lens->spacing * (0.7f + 0.6f * distance / (facing > 0.1f * distance ? facing : 0.1f * distance));
+}
+
+/* Finds the nearest depths: of the first surface, or of the second one, which is behind the first. */
+SB_INLINE void find_front(struct band *band, const struct lens *lens, const sb_surfel *s, bool second)
+{
+    const struct box box = box_of(lens, s, s->radius);
     const int low = box.y0 > band->first_row ? box.y0 : band->first_row;
     const int top = band->first_row + band->rows, high = box.y1 < top ? box.y1 : top;
+    const float room = second ? room_of(lens, s) : 0;
     if (s->share < 0.3f) return;
     for (int y = low; y < high; y++) {
-        float *restrict front = band->front + (size_t)(y - band->first_row) * (size_t)band->width;
-        const float *restrict weight = band->weight, *restrict depth = band->depth;
-        weigh_row(lens, s, y, box.x0, box.x1, radius, band->weight, band->depth);
+        const size_t row = (size_t)(y - band->first_row) * (size_t)band->width;
+        float *restrict front = (second ? band->second : band->front) + row;
+        const float *restrict before = band->front + row, *restrict weight = band->weight,
+                              *restrict depth = band->depth;
+        weigh_row(lens, s, y, box.x0, box.x1, s->radius, band->weight, band->depth);
+        if (!second) {
 #pragma omp simd
-        for (int x = box.x0; x < box.x1; x++)
-            front[x] = weight[x] > front_weight && depth[x] < front[x] ? depth[x] : front[x];
+            for (int x = box.x0; x < box.x1; x++)
+                front[x] = weight[x] > front_weight && depth[x] < front[x] ? depth[x] : front[x];
+        } else {
+#pragma omp simd
+            for (int x = box.x0; x < box.x1; x++)
+                front[x] = weight[x] > front_weight && depth[x] < front[x] && depth[x] > before[x] + room ? depth[x]
+                                                                                                          : front[x];
+        }
     }
 }
 
 SB_INLINE void add_disc(struct band *band, const struct lens *lens, const sb_surfel *s)
 {
-    const float radius = s->radius;
-    const struct box box = box_of(lens, s, radius);
+    const struct box box = box_of(lens, s, s->radius);
     const int low = box.y0 > band->first_row ? box.y0 : band->first_row;
     const int top = band->first_row + band->rows, high = box.y1 < top ? box.y1 : top;
-    const float distance = sqrtf(s->place[0] * s->place[0] + s->place[1] * s->place[1] + s->place[2] * s->place[2]);
-    const float facing = -(s->normal[0] * s->place[0] + s->normal[1] * s->place[1] + s->normal[2] * s->place[2]);
-    /* Depths of one surface differ more where it is seen at a small angle. */
-    const float room = lens->spacing * (0.7f + 0.6f * distance / (facing > 0.1f * distance ? facing : 0.1f * distance));
-    const float narrow = 1 / room;
+    const float narrow = 1 / room_of(lens, s);
     for (int y = low; y < high; y++) {
         const size_t row = (size_t)(y - band->first_row) * (size_t)band->width;
-        const float *restrict front = band->front + row, *restrict weight = band->weight, *restrict depth = band->depth;
-        weigh_row(lens, s, y, box.x0, box.x1, radius, band->weight, band->depth);
+        const float *restrict front = band->front + row, *restrict second = band->second + row;
+        const float *restrict weight = band->weight, *restrict depth = band->depth;
+        weigh_row(lens, s, y, box.x0, box.x1, s->radius, band->weight, band->depth);
         for (int x = box.x0; x < box.x1; x++) {
             if (!(weight[x] > 0)) continue;
-            const float past = (depth[x] - front[x]) * narrow, behind = past > 0 ? past : 0;
-            const float keep = 1 - behind * behind;
-            /* Close behind the first surface a small part is kept, into which the edges of discs fade. */
-            const float fade = behind < fade_rooms ? 1 - behind / fade_rooms : 0;
-            const float all = s->share * weight[x], w = all * ((keep > 0 ? keep : 0) + fade_share * fade * fade);
-            float *restrict sums = band->sums + SUMS * (row + (size_t)x);
-            sums[7] += all;
+            const bool behind = depth[x] > front[x] && (depth[x] - front[x]) * narrow >= 1;
+            const float past = (depth[x] - (behind ? second[x] : front[x])) * narrow, off = past > 0 ? past : 0;
+            const float w = off < 1 ? s->share * weight[x] * (1 - off * off) : 0;
             if (!(w > 0)) continue;
-            const float parts[SUMS] = {1, depth[x], s->value, s->normal[0], s->normal[1], s->normal[2], s->thickness, 0};
+            float *restrict sums = (behind ? band->second_sums : band->sums) + SUMS * (row + (size_t)x);
+            const float parts[SUMS] = {1, depth[x], s->value, s->normal[0], s->normal[1], s->normal[2], s->thickness,
+                                       0};
             for (int k = 0; k < SUMS; k++) sums[k] += w * parts[k];
         }
     }
@@ -168,25 +176,35 @@ static float ramp(float low, float high, float x)
     return s * s * (3 - 2 * s);
 }
 
+/* Blends the first surface with the second one where it does not cover the pixel. */
+static void resolve_pixel(const float *first, const float *second, const float *drops, float *surface, float *cover)
+{
+    const float share = ramp(cover_none, cover_all, first[0]), rest = ramp(cover_none, cover_all, second[0]);
+    const float back = (1 - share) * rest, covered = share + back;
+    const float one = share > 0 ? share / first[0] : 0, two = back > 0 ? back / second[0] : 0;
+    float mixed[SUMS];
+    for (int k = 0; k < SUMS; k++) mixed[k] = one * first[k] + two * second[k];
+    float length = sqrtf(mixed[3] * mixed[3] + mixed[4] * mixed[4] + mixed[5] * mixed[5]);
+    length = length > 0 ? 1 / length : 0;
+    const float inverse = covered > 0 ? 1 / covered : 0;
+    /* Depths are not blended: between two surfaces there is nothing. */
+    surface[0] = covered > 0 ? share >= back ? first[1] / first[0] : second[1] / second[0] : 0;
+    surface[1] = covered > 0 ? mixed[2] * inverse : drops[0] > 0 ? drops[1] / drops[0] : 0;
+    surface[2] = mixed[3] * length;
+    surface[3] = mixed[4] * length;
+    cover[0] = covered;
+    cover[1] = mixed[6] * inverse;
+    cover[2] = 1 - expf(-drops[0]);
+    cover[3] = drops[2];
+}
+
 static void resolve(const struct band *band, sb_splat *splat)
 {
-    const size_t count = (size_t)band->rows * (size_t)band->width, start = (size_t)band->first_row * (size_t)band->width;
-    for (size_t i = 0; i < count; i++) {
-        const float *sums = band->sums + SUMS * i, *drops = band->drops + 3 * i;
-        float *surface = splat->surface + 4 * (start + i), *cover = splat->cover + 4 * (start + i);
-        const float covered = ramp(cover_none, cover_all, sums[7]), inverse = sums[0] > 0 ? 1 / sums[0] : 0;
-        const float opaque = 1 - expf(-drops[0]);
-        float length = sqrtf(sums[3] * sums[3] + sums[4] * sums[4] + sums[5] * sums[5]);
-        length = length > 0 ? 1 / length : 0;
-        surface[0] = covered > 0 && sums[0] > 0 ? sums[1] * inverse : 0;
-        surface[1] = covered > 0 ? sums[2] * inverse : drops[0] > 0 ? drops[1] / drops[0] : 0;
-        surface[2] = sums[3] * length;
-        surface[3] = sums[4] * length;
-        cover[0] = covered;
-        cover[1] = sums[6] * inverse;
-        cover[2] = opaque;
-        cover[3] = drops[2];
-    }
+    const size_t count = (size_t)band->rows * (size_t)band->width,
+                 start = (size_t)band->first_row * (size_t)band->width;
+    for (size_t i = 0; i < count; i++)
+        resolve_pixel(band->sums + SUMS * i, band->second_sums + SUMS * i, band->drops + 3 * i,
+                      splat->surface + 4 * (start + i), splat->cover + 4 * (start + i));
 }
 
 static SB_MULTIVERSION void draw_band(struct band *band, const struct lens *lens, const sb_surfel *list,
@@ -195,9 +213,11 @@ static SB_MULTIVERSION void draw_band(struct band *band, const struct lens *lens
     const size_t pixels = (size_t)band->rows * (size_t)band->width;
     const float drop = drop_spacings * lens->spacing;
     memset(band->sums, 0, SUMS * pixels * sizeof *band->sums);
+    memset(band->second_sums, 0, SUMS * pixels * sizeof *band->second_sums);
     memset(band->drops, 0, 3 * pixels * sizeof *band->drops);
-    for (size_t i = 0; i < pixels; i++) band->front[i] = HUGE_VALF;
-    for (size_t k = 0; k < count; k++) find_front(band, lens, &list[bin[k]]);
+    for (size_t i = 0; i < pixels; i++) band->front[i] = band->second[i] = HUGE_VALF;
+    for (size_t k = 0; k < count; k++) find_front(band, lens, &list[bin[k]], false);
+    for (size_t k = 0; k < count; k++) find_front(band, lens, &list[bin[k]], true);
     for (size_t k = 0; k < count; k++) {
         const sb_surfel *s = &list[bin[k]];
         if (s->share > 0) add_disc(band, lens, s);
@@ -256,8 +276,10 @@ static struct band band_at(float *memory, int width)
 {
     const size_t pixels = (size_t)width * BAND, row = (size_t)width;
     struct band band = {.width = width, .sums = memory};
-    band.front = band.sums + SUMS * pixels;
-    band.drops = band.front + pixels;
+    band.second_sums = band.sums + SUMS * pixels;
+    band.front = band.second_sums + SUMS * pixels;
+    band.second = band.front + pixels;
+    band.drops = band.second + pixels;
     band.weight = band.drops + 3 * pixels;
     band.depth = band.weight + row;
     return band;
@@ -268,7 +290,7 @@ sb_status sb_splat_draw(sb_splat *splat, const sb_surfels *surfels, const sb_vie
 {
     const struct lens lens = lens_of(splat, view, spacing);
     const int bands = (splat->height + BAND - 1) / BAND;
-    const size_t size = (size_t)splat->width * ((SUMS + 4) * BAND + 2);
+    const size_t size = (size_t)splat->width * ((2 * SUMS + 5) * BAND + 2);
     float *memory = sb_alloc(size * (size_t)threads, sizeof *memory);
     if (!memory) return sb_fail_memory(error, "the water of a picture");
     sb_status status = sort(splat, surfels, &lens, (size_t)bands, error);

@@ -43,14 +43,16 @@ static void gradient(const sb_density *density, const float *p, float g[3])
         float low[3] = {p[0], p[1], p[2]}, high[3] = {p[0], p[1], p[2]};
         low[a] -= d;
         high[a] += d;
-        g[a] = scale * (sb_density_at(density, low[0], low[1], low[2]) -
-                        sb_density_at(density, high[0], high[1], high[2]));
+        g[a] = scale *
+               (sb_density_at(density, low[0], low[1], low[2]) - sb_density_at(density, high[0], high[1], high[2]));
     }
 }
 
-/* Moves a particle along the gradient to the surface, and finds the normal there, zero if there is none. A drop close above the surface
-   becomes part of it, but no particle moves into its own layer if that is the only one above the ground. Particles of a sheet whose density is nowhere that of the surface stay where they are. */
-static void to_surface(const sb_density *density, float spacing, float place[3], float normal[3])
+/* Moves a particle along the gradient to the surface, and finds the normal there, zero if there is none. Returns the
+   gradient's magnitude per spacing. A drop close
+   above the surface becomes part of it, but no particle moves into its own layer if that is the only one above the
+   ground. Particles of a sheet whose density is nowhere that of the surface stay where they are. */
+static float to_surface(const sb_density *density, float spacing, float place[3], float normal[3])
 {
     float at[3] = {place[0], place[1], place[2]}, here = 0, length = 0;
     for (int turn = 0; turn < 4; turn++) {
@@ -63,7 +65,8 @@ static void to_surface(const sb_density *density, float spacing, float place[3],
         step = step < -most ? -most : step > most ? most : step;
         for (int a = 0; a < 3; a++) at[a] += step * normal[a] / length;
     }
-    const float moved = (at[0] - place[0]) * normal[0] + (at[1] - place[1]) * normal[1] + (at[2] - place[2]) * normal[2];
+    const float moved =
+        (at[0] - place[0]) * normal[0] + (at[1] - place[1]) * normal[1] + (at[2] - place[2]) * normal[2];
     const float deep = length > 0 ? 1.5f * spacing / length : 0;
     const float below =
         sb_density_at(density, at[0] - deep * normal[0], at[1] - deep * normal[1], at[2] - deep * normal[2]);
@@ -77,6 +80,7 @@ static void to_surface(const sb_density *density, float spacing, float place[3],
         length = sqrtf(sb_dot3(normal, normal));
     }
     for (int a = 0; a < 3; a++) normal[a] = length * spacing < 0.01f ? 0 : normal[a] / length;
+    return length * spacing;
 }
 
 /* The length of water behind a place, m. */
@@ -114,18 +118,17 @@ static sb_surfel surfel_of(const sb_density *density, const sb_frame *frame, con
     float place[3] = {p[0], p[1], p[2]}, normal[3] = {0, lens->eye[1] > p[1] ? 1 : -1, 0};
     const float crowd = sb_density_at(density, p[0], p[1], p[2]);
     /* Particles of a slice are a flat picture of their plane. */
-    if (!density->slice) to_surface(density, spacing, place, normal);
+    const float slope = density->slice ? 1 : to_surface(density, spacing, place, normal);
     float away[3] = {place[0] - lens->eye[0], place[1] - lens->eye[1], place[2] - lens->eye[2]};
     sb_surfel surfel = {.value = value, .share = ramp(drop_density, sheet_density, crowd)};
     surfel.radius = spacing * (least_radius + (disc_radius - least_radius) * ramp(0.12f, 0.42f, crowd));
     along(lens, away, surfel.place);
     const float distance = sqrtf(sb_dot3(away, away)), inverse = distance > 0 ? 1 / distance : 0;
     for (int a = 0; a < 3; a++) away[a] *= inverse;
-    surfel.thickness = density->slice ? (float)SB_SURFEL_THICKEST * spacing
-                                      : thickness(density, place, away, spacing);
-    /* Thin sheets have no clear normal: their elements face the eye. An element that is seen at a very small angle is
-       turned to the eye, so that it still covers pixels. */
-    const float faced = density->slice ? 0 : sb_dot3(normal, normal) > 0 ? 1 - ramp(0.2f, 0.45f, crowd) : 1;
+    surfel.thickness = density->slice ? (float)SB_SURFEL_THICKEST * spacing : thickness(density, place, away, spacing);
+    /* Thin sheets in the air have no clear normal: their elements face the eye. An element that is seen at a very small
+       angle is turned to the eye, so that it still covers pixels. */
+    const float faced = (1 - ramp(0.2f, 0.45f, crowd)) * (1 - ramp(0.08f, 0.2f, slope));
     for (int a = 0; a < 3; a++) normal[a] = (1 - faced) * normal[a] - faced * away[a];
     const float least = 0.1f, facing = -sb_dot3(normal, away), bend = facing < least ? least - facing : 0;
     for (int a = 0; a < 3; a++) normal[a] -= bend * away[a];

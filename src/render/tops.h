@@ -1,5 +1,5 @@
-/* The outermost water of each cell of a grid, as seen along an axis: for the water's shadows (seen from the sun) and for
-   the highest water so far (seen from above). */
+/* The outermost water of each cell of a grid, as seen along an axis: for the water's shadows (seen from the sun) and
+   for the highest water so far (seen from above). */
 #ifndef SB_RENDER_TOPS_H
 #define SB_RENDER_TOPS_H
 
@@ -9,8 +9,8 @@
 
 /* A zeroed struct is empty. */
 typedef struct sb_tops {
-    int side;    /* cells on each side */
-    float *top;  /* row by row; SB_TOPS_DRY where there has been no water */
+    int side;   /* cells on each side */
+    float *top; /* row by row; SB_TOPS_DRY where there has been no water */
     GLuint texture;
 } sb_tops;
 
@@ -28,7 +28,8 @@ void sb_tops_destroy(sb_tops *tops);
 void sb_tops_clear(sb_tops *tops);
 
 /* Raises the cells to the frame's water. map: the rows of a matrix from positions relative to the frame's origin to
-   column and row of the grid, 0..1, and to height. Particles with a density below `least` are left out: single drops. */
+   column and row of the grid, 0..1, and to height. Particles with a density below `least` are left out: single drops.
+ */
 void sb_tops_add(sb_tops *tops, const sb_frame *frame, const sb_density *density, float least, float map[3][4]);
 
 /* Copies the map to its texture. */

@@ -343,6 +343,8 @@ typedef struct sb_render_settings {
     int width, height; /* px */
     double speed_max;  /* m/s at the top of the colour map; 0: 2 sqrt(g D) of the scene */
     int video_rate;    /* pictures per second of video */
+    bool scale_bar;
+    sb_vec3 north; /* horizontal; 0: no arrow */
     bool shadows, occlusion;
     bool wet_ground;     /* ground that the water has reached is darker */
     bool greatest_depth; /* the greatest depth so far is painted on the terrain */

@@ -5,6 +5,7 @@
 #include "render/font.h"
 #include "render/image.h"
 #include "render/light.h"
+#include "render/marks.h"
 #include "render/outline.h"
 #include "render/overlay.h"
 #include "render/soften.h"
@@ -197,6 +198,45 @@ static void ticks_are_round_numbers(void **state)
     sb_image_free(&image);
 }
 
+/* The bar is as long as the object of its label is at the target, and the arrow points north. */
+static void marks_measure_the_scene(void **state)
+{
+    (void)state;
+    enum { W = 640, H = 360 };
+    sb_image image = {0};
+    sb_error error = {0};
+    assert_int_equal(sb_image_resize(&image, W, H, &error), SB_OK);
+    memset(image.rgb, 60, (size_t)W * H * 3);
+    /* At a distance of 100 m under 90 degrees, 360 px are 200 m: 50 m are 90 px. */
+    const sb_camera_key key = {0, {0, -100, 0}, {0, 0, 0}, 90};
+    const sb_view view = sb_view_create(&key, (double)W / H, sb_vec(-50, -50, -50), sb_vec(50, 50, 50));
+    assert_int_equal(sb_marks_scale(&image, &view, key.target, &error), SB_OK);
+    int first = W, last = 0;
+    const int row = (int)(H - 42 * 0.6);
+    for (int x = 0; x < W; x++)
+        if (image.rgb[3 * (row * W + x)] > 200) {
+            first = x < first ? x : first;
+            last = x > last ? x : last;
+        }
+    assert_in_range(last - first, 89, 93);
+    /* East is at the right of this view, so that the letter is at the right end of the arrow. */
+    memset(image.rgb, 60, (size_t)W * H * 3);
+    assert_int_equal(sb_marks_north(&image, &view, key.target, sb_vec(1, 0, 0), &error), SB_OK);
+    int left = 0, right = 0;
+    for (int y = 0; y < 80; y++)
+        for (int x = W - 100; x < W; x++) {
+            const bool bright = image.rgb[3 * (y * W + x)] > 200;
+            if (x < W - 38)
+                left += bright;
+            else
+                right += bright;
+        }
+    assert_true(left > 10 && right > 2 * left);
+    /* Behind the eye there is nothing to measure. */
+    assert_int_equal(sb_marks_scale(&image, &view, sb_vec(0, -200, 0), &error), SB_OK);
+    sb_image_free(&image);
+}
+
 static sb_mesh cube(void)
 {
     /* Each face has its own corners, as in meshes with one normal per face. */
@@ -337,6 +377,7 @@ int main(void)
         cmocka_unit_test(text_ends_at_its_width),
         cmocka_unit_test(softening_changes_only_jagged_edges),
         cmocka_unit_test(ticks_are_round_numbers),
+        cmocka_unit_test(marks_measure_the_scene),
         cmocka_unit_test(outline_finds_the_edges_of_a_cube),
         cmocka_unit_test(density_is_one_inside),
         cmocka_unit_test(only_the_surface_is_visible),

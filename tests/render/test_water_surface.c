@@ -183,8 +183,7 @@ static void fields_have_their_values(void **state)
     for (size_t i = 0; i < frame->count; i++)
         if (inside(frame, i)) assert_true(fabsf(values.list[i] - 0.6f) < 0.06f);
     compute(&values, frame, SB_COLOR_PRESSURE, 39240);
-    for (size_t i = 0; i < frame->count; i++)
-        assert_true(fabsf(values.list[i] - frame->pressure[i] / 39240) < 1e-5f);
+    for (size_t i = 0; i < frame->count; i++) assert_true(fabsf(values.list[i] - frame->pressure[i] / 39240) < 1e-5f);
     compute(&values, frame, SB_COLOR_SPEED, 10);
     for (size_t i = 0; i < frame->count; i++) {
         const double v = hypot((double)frame->velocity[3 * i], (double)frame->velocity[3 * i + 1]);
@@ -216,8 +215,7 @@ static void strange_particles_are_left_out(void **state)
     frame->position[8] = -9e9f;
     for (int color = 0; color < SB_WATER_COLORS; color++) compute(&values, frame, (sb_water_color)color, 1);
     draw(frame, sb_vec(2, -8, 6), sb_vec(2, 2, 2), 2, &surfels, &splat);
-    for (size_t i = 0; i < 4 * WIDTH * HEIGHT; i++)
-        assert_true(isfinite(splat.surface[i]) && isfinite(splat.cover[i]));
+    for (size_t i = 0; i < 4 * WIDTH * HEIGHT; i++) assert_true(isfinite(splat.surface[i]) && isfinite(splat.cover[i]));
     sb_values_free(&values);
     sb_surfels_free(&surfels);
     sb_splat_free(&splat);
