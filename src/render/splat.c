@@ -10,8 +10,8 @@
 enum { BAND = 16, SUMS = 8 };
 
 static const float drop_spacings = 0.3f; /* radius of a single drop */
-/* Weights above this define the first surface. */
-static const float front_weight = 0.16f;
+/* Weights above this define the nearest depths. */
+static const float front_weight = 0.16f, front_share = 0.3f; /* of discs; of their element in a surface */
 /* The sum of weights at the edge of a surface: no water and only water. An unbroken layer of discs has about 2.7. */
 static const float cover_none = 0.22f, cover_all = 0.62f;
 static const float drop_opacity = 1.4f; /* optical thickness at the centre of a drop */
@@ -25,6 +25,7 @@ struct band {
     float *front, *second; /* m, nearest depths of the two surfaces */
     float *drops;          /* per pixel: optical thickness, its product with value, depth */
     float *weight, *depth; /* of one row */
+    int32_t *open;         /* as in find_open */
 };
 
 struct lens {
@@ -87,6 +88,25 @@ SB_INLINE void weigh_row(const struct lens *lens, const sb_surfel *s, int row, i
     }
 }
 
+/* Counts the pixels of each row up to each column that the first surface does not cover: only there is the second
+   surface needed. */
+static void find_open(struct band *band)
+{
+    for (int y = 0; y < band->rows; y++) {
+        int32_t *open = band->open + (size_t)y * ((size_t)band->width + 1);
+        const float *sums = band->sums + SUMS * (size_t)y * (size_t)band->width;
+        open[0] = 0;
+        for (int x = 0; x < band->width; x++) open[x + 1] = open[x] + (sums[SUMS * (size_t)x] < cover_all);
+    }
+}
+
+/* Whether the first surface leaves a pixel of [x0, x1) in a row. */
+SB_INLINE bool is_open(const struct band *band, int y, int x0, int x1)
+{
+    const int32_t *open = band->open + (size_t)(y - band->first_row) * ((size_t)band->width + 1);
+    return x1 > x0 && open[x1] > open[x0];
+}
+
 /* Distance along the ray within which discs are parts of one surface. It is larger where the surface is seen at a small
    angle. */
 SB_INLINE float room_of(const struct lens *lens, const sb_surfel *s)
@@ -96,51 +116,72 @@ SB_INLINE float room_of(const struct lens *lens, const sb_surfel *s)
     return lens->spacing * (0.7f + 0.6f * distance / (facing > 0.1f * distance ? facing : 0.1f * distance));
 }
 
-/* Finds the nearest depths: of the first surface, or of the second one, which is behind the first. */
-SB_INLINE void find_front(struct band *band, const struct lens *lens, const sb_surfel *s, bool second)
+/* The rows of a band that an element touches. */
+struct rows {
+    struct box box;
+    int low, high;
+};
+
+SB_INLINE struct rows rows_of(const struct band *band, const struct lens *lens, const sb_surfel *s)
 {
     const struct box box = box_of(lens, s, s->radius);
-    const int low = box.y0 > band->first_row ? box.y0 : band->first_row;
-    const int top = band->first_row + band->rows, high = box.y1 < top ? box.y1 : top;
-    const float room = second ? room_of(lens, s) : 0;
-    if (s->share < 0.3f) return;
-    for (int y = low; y < high; y++) {
-        const size_t row = (size_t)(y - band->first_row) * (size_t)band->width;
-        float *restrict front = (second ? band->second : band->front) + row;
-        const float *restrict before = band->front + row, *restrict weight = band->weight,
-                              *restrict depth = band->depth;
-        weigh_row(lens, s, y, box.x0, box.x1, s->radius, band->weight, band->depth);
-        if (!second) {
+    const int top = band->first_row + band->rows;
+    return (struct rows){box, box.y0 > band->first_row ? box.y0 : band->first_row, box.y1 < top ? box.y1 : top};
+}
+
+/* Finds the nearest depth of the first surface. */
+SB_INLINE void find_front(struct band *band, const struct lens *lens, const sb_surfel *s)
+{
+    const struct rows r = rows_of(band, lens, s);
+    if (s->share < front_share) return;
+    for (int y = r.low; y < r.high; y++) {
+        float *restrict front = band->front + (size_t)(y - band->first_row) * (size_t)band->width;
+        const float *restrict weight = band->weight, *restrict depth = band->depth;
+        weigh_row(lens, s, y, r.box.x0, r.box.x1, s->radius, band->weight, band->depth);
 #pragma omp simd
-            for (int x = box.x0; x < box.x1; x++)
-                front[x] = weight[x] > front_weight && depth[x] < front[x] ? depth[x] : front[x];
-        } else {
-#pragma omp simd
-            for (int x = box.x0; x < box.x1; x++)
-                front[x] = weight[x] > front_weight && depth[x] < front[x] && depth[x] > before[x] + room ? depth[x]
-                                                                                                          : front[x];
-        }
+        for (int x = r.box.x0; x < r.box.x1; x++)
+            front[x] = weight[x] > front_weight && depth[x] < front[x] ? depth[x] : front[x];
     }
 }
 
-SB_INLINE void add_disc(struct band *band, const struct lens *lens, const sb_surfel *s)
+/* Finds the nearest depth of the second surface, which is behind the first. */
+SB_INLINE void find_second(struct band *band, const struct lens *lens, const sb_surfel *s)
 {
-    const struct box box = box_of(lens, s, s->radius);
-    const int low = box.y0 > band->first_row ? box.y0 : band->first_row;
-    const int top = band->first_row + band->rows, high = box.y1 < top ? box.y1 : top;
-    const float narrow = 1 / room_of(lens, s);
-    for (int y = low; y < high; y++) {
+    const struct rows r = rows_of(band, lens, s);
+    const float room = room_of(lens, s);
+    if (s->share < front_share) return;
+    for (int y = r.low; y < r.high; y++) {
         const size_t row = (size_t)(y - band->first_row) * (size_t)band->width;
-        const float *restrict front = band->front + row, *restrict second = band->second + row;
+        if (!is_open(band, y, r.box.x0, r.box.x1)) continue;
+        float *restrict second = band->second + row;
+        const float *restrict front = band->front + row, *restrict weight = band->weight, *restrict depth = band->depth;
+        weigh_row(lens, s, y, r.box.x0, r.box.x1, s->radius, band->weight, band->depth);
+#pragma omp simd
+        for (int x = r.box.x0; x < r.box.x1; x++)
+            second[x] =
+                weight[x] > front_weight && depth[x] < second[x] && depth[x] > front[x] + room ? depth[x] : second[x];
+    }
+}
+
+/* Adds a disc to the sums of the first surface, or to those of the second one. */
+SB_INLINE void add_disc(struct band *band, const struct lens *lens, const sb_surfel *s, bool second)
+{
+    const struct rows r = rows_of(band, lens, s);
+    const float narrow = 1 / room_of(lens, s);
+    for (int y = r.low; y < r.high; y++) {
+        const size_t row = (size_t)(y - band->first_row) * (size_t)band->width;
+        if (second && !is_open(band, y, r.box.x0, r.box.x1)) continue;
+        const float *restrict front = band->front + row, *restrict nearest =
+                                                             (second ? band->second : band->front) + row;
         const float *restrict weight = band->weight, *restrict depth = band->depth;
-        weigh_row(lens, s, y, box.x0, box.x1, s->radius, band->weight, band->depth);
-        for (int x = box.x0; x < box.x1; x++) {
+        weigh_row(lens, s, y, r.box.x0, r.box.x1, s->radius, band->weight, band->depth);
+        for (int x = r.box.x0; x < r.box.x1; x++) {
             if (!(weight[x] > 0)) continue;
             const bool behind = depth[x] > front[x] && (depth[x] - front[x]) * narrow >= 1;
-            const float past = (depth[x] - (behind ? second[x] : front[x])) * narrow, off = past > 0 ? past : 0;
+            const float past = (depth[x] - nearest[x]) * narrow, off = past > 0 ? past : 0;
             const float w = off < 1 ? s->share * weight[x] * (1 - off * off) : 0;
-            if (!(w > 0)) continue;
-            float *restrict sums = (behind ? band->second_sums : band->sums) + SUMS * (row + (size_t)x);
+            if (behind != second || !(w > 0)) continue;
+            float *restrict sums = (second ? band->second_sums : band->sums) + SUMS * (row + (size_t)x);
             const float parts[SUMS] = {1, depth[x], s->value, s->normal[0], s->normal[1], s->normal[2], s->thickness,
                                        0};
             for (int k = 0; k < SUMS; k++) sums[k] += w * parts[k];
@@ -216,13 +257,16 @@ static SB_MULTIVERSION void draw_band(struct band *band, const struct lens *lens
     memset(band->second_sums, 0, SUMS * pixels * sizeof *band->second_sums);
     memset(band->drops, 0, 3 * pixels * sizeof *band->drops);
     for (size_t i = 0; i < pixels; i++) band->front[i] = band->second[i] = HUGE_VALF;
-    for (size_t k = 0; k < count; k++) find_front(band, lens, &list[bin[k]], false);
-    for (size_t k = 0; k < count; k++) find_front(band, lens, &list[bin[k]], true);
+    for (size_t k = 0; k < count; k++) find_front(band, lens, &list[bin[k]]);
     for (size_t k = 0; k < count; k++) {
         const sb_surfel *s = &list[bin[k]];
-        if (s->share > 0) add_disc(band, lens, s);
+        if (s->share > 0) add_disc(band, lens, s, false);
         if (s->share < 1) add_drop(band, lens, s, drop);
     }
+    find_open(band);
+    for (size_t k = 0; k < count; k++) find_second(band, lens, &list[bin[k]]);
+    for (size_t k = 0; k < count; k++)
+        if (list[bin[k]].share > 0) add_disc(band, lens, &list[bin[k]], true);
     resolve(band, splat);
 }
 
@@ -282,6 +326,7 @@ static struct band band_at(float *memory, int width)
     band.drops = band.second + pixels;
     band.weight = band.drops + 3 * pixels;
     band.depth = band.weight + row;
+    band.open = (int32_t *)(band.depth + row);
     return band;
 }
 
@@ -290,7 +335,7 @@ sb_status sb_splat_draw(sb_splat *splat, const sb_surfels *surfels, const sb_vie
 {
     const struct lens lens = lens_of(splat, view, spacing);
     const int bands = (splat->height + BAND - 1) / BAND;
-    const size_t size = (size_t)splat->width * ((2 * SUMS + 5) * BAND + 2);
+    const size_t size = (size_t)splat->width * ((2 * SUMS + 6) * BAND + 2) + BAND;
     float *memory = sb_alloc(size * (size_t)threads, sizeof *memory);
     if (!memory) return sb_fail_memory(error, "the water of a picture");
     sb_status status = sort(splat, surfels, &lens, (size_t)bands, error);
