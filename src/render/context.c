@@ -8,6 +8,7 @@
 
 #include <GL/osmesa.h>
 #include <pthread.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 #ifdef __SANITIZE_ADDRESS__
@@ -59,18 +60,27 @@ static void load(void)
     sb_library_load("libOSMesa.so.8", functions, sizeof functions / sizeof functions[0], &mesa.error);
 }
 
+static int drawing_threads = 1;
+
+int sb_context_threads(void)
+{
+    return drawing_threads;
+}
+
 /* The simulation needs the processors, too: two rasteriser threads unless the user sets another number. Mesa starts as
-   many again for compute shaders, and one for its cache of shaders. If only some of the rasteriser's threads can be
-   started, Mesa 22.3 waits for the others without end in the first picture. It then gets no threads and draws in the
-   thread that calls it. */
+   many again for compute shaders, and one for its cache of shaders. The water is drawn by as many threads, too. If only
+   some of the rasteriser's threads can be started, Mesa 22.3 waits for the others without end in the first picture. It
+   then gets no threads and draws in the thread that calls it. */
 static void choose_threads(void)
 {
     enum { CHOSEN = 2, MOST = 32 };
     setenv("LP_NUM_THREADS", "2", 0);
     const char *text = getenv("LP_NUM_THREADS");
     const long requested = text ? strtol(text, NULL, 10) : CHOSEN;
-    const int threads = requested < 0 ? 0 : requested > MOST ? MOST : (int)requested, needed = 2 * threads + 1;
-    if (threads > 0 && sb_threads_allowed(needed) < needed) setenv("LP_NUM_THREADS", "0", 1);
+    const int threads = requested < 0 ? 0 : requested > MOST ? MOST : (int)requested, needed = 3 * threads + 1;
+    const bool few = threads > 0 && sb_threads_allowed(needed) < needed;
+    if (few) setenv("LP_NUM_THREADS", "0", 1);
+    drawing_threads = few || threads < 1 ? 1 : threads;
 }
 
 /* The library first: it takes address space, and so do threads. */
@@ -104,7 +114,13 @@ sb_status sb_context_create(sb_context **context, sb_error *error)
         sb_free(made);
         return sb_fail(error, SB_FAILED, "OSMesa cannot create an OpenGL 3.3 core context: pictures cannot be drawn");
     }
+    /* OpenMP ends the process when it cannot start a thread: its threads start now, while there is room. */
+    int running = 0;
+#pragma omp parallel num_threads(drawing_threads)
+#pragma omp atomic
+    running++;
     *context = made;
+    (void)running;
     return SB_OK;
 }
 

@@ -10,6 +10,10 @@ typedef struct sb_context sb_context;
 /* Creates the context without making it current. */
 sb_status sb_context_create(sb_context **context, sb_error *error);
 
+/* Number of threads with which pictures are drawn: LP_NUM_THREADS, two unless set; at least 1. Valid after the first
+   sb_context_create. */
+int sb_context_threads(void);
+
 /* Makes it current on the calling thread (one at a time). */
 sb_status sb_context_enter(sb_context *context, sb_error *error);
 

@@ -69,66 +69,156 @@ static bool locate(const sb_density *density, const float place[3], size_t *node
     return true;
 }
 
-static void spread(sb_density *density, const sb_frame *frame)
+/* Adds the particles' shares of the nodes whose layer is in [first, end). */
+static void spread_layers(sb_density *density, const sb_frame *frame, size_t first, size_t end)
 {
     size_t up = density->n[0], over = density->n[0] * density->n[1];
     double ratio = frame->spacing * (double)density->inverse;
-    float mass = (float)(ratio * ratio * ratio);
+    /* A layer of particles in one plane of nodes, half of which the smoothing moves to the planes beside it. */
+    float mass = (float)(density->slice ? 2 * ratio * ratio : ratio * ratio * ratio);
     for (size_t i = 0; i < frame->count; i++) {
         const float *p = frame->position + 3 * i;
+        float depth = (p[2] - density->min[2]) * density->inverse;
+        if (!(depth + 1 >= (float)first && depth < (float)end)) continue;
         size_t at;
         float s[3];
         if (!sb_density_counts(p) || !locate(density, p, &at, s)) continue;
         float *node = density->node + at;
-        float low = mass * (1 - s[2]), high = mass * s[2];
         float a = (1 - s[0]) * (1 - s[1]), b = s[0] * (1 - s[1]);
         float c = (1 - s[0]) * s[1], d = s[0] * s[1];
-        node[0] += low * a;
-        node[1] += low * b;
-        node[up] += low * c;
-        node[up + 1] += low * d;
-        node[over] += high * a;
-        node[over + 1] += high * b;
-        node[over + up] += high * c;
-        node[over + up + 1] += high * d;
+        for (size_t k = 0; k < 2; k++, node += over) {
+            const size_t layer = at / over + k;
+            if (layer < first || layer >= end) continue;
+            const float part = mass * (k ? s[2] : 1 - s[2]);
+            node[0] += part * a;
+            node[1] += part * b;
+            node[up] += part * c;
+            node[up + 1] += part * d;
+        }
+    }
+}
+
+/* Each thread has its own layers of nodes and reads all particles in their order, so that the sums have one order. */
+static void spread(sb_density *density, const sb_frame *frame, int threads)
+{
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (int part = 0; part < threads; part++) {
+        const size_t layers = density->n[2], share = (layers + (size_t)threads - 1) / (size_t)threads;
+        const size_t first = (size_t)part * share;
+        spread_layers(density, frame, first, first + share < layers ? first + share : layers);
     }
 }
 
 /* Smooths along one axis with the weights 1/4, 1/2, 1/4. At the ends of a row the neighbours are the zeros of the
    margin. */
-static void smooth(const float *restrict in, float *restrict out, size_t count, size_t stride)
+static void smooth(const float *restrict in, float *restrict out, size_t count, size_t stride, int threads)
 {
     memset(out, 0, stride * sizeof *out);
     memset(out + count - stride, 0, stride * sizeof *out);
+#pragma omp parallel for num_threads(threads) schedule(static)
     for (size_t i = stride; i < count - stride; i++) out[i] = 0.5f * in[i] + 0.25f * (in[i - stride] + in[i + stride]);
 }
 
-sb_status sb_density_build(sb_density *density, const sb_frame *frame, sb_error *error)
+/* Smooths *field along all axes with the help of *spare. */
+static void smooth_all(const sb_density *density, float **field, float **spare, int threads)
+{
+    size_t stride = 1, count = density->n[0] * density->n[1] * density->n[2];
+    for (int a = 0; a < 3; a++) {
+        smooth(*field, *spare, count, stride, threads);
+        float *other = *field;
+        *field = *spare;
+        *spare = other;
+        stride *= density->n[a];
+    }
+}
+
+/* The fraction of a cell, which begins half a cell below the node, that is above `low`. */
+static float share_above(double at, double cell, double low)
+{
+    const double share = (at - low) / cell + 0.5;
+    return share > 0 ? share < 1 ? (float)share : 1 : 0;
+}
+
+/* The height of the bodies at a place, m relative to the frame's origin. */
+static double height_at(const sb_ground *ground, sb_vec3 shift, double x, double y, double floor_level)
+{
+    const double column = (x + shift.x - ground->x) * ground->per_cell;
+    const double row = (y + shift.y - ground->y) * ground->per_cell;
+    if (!(column >= 0 && row >= 0 && column < ground->side && row < ground->side)) return floor_level;
+    const size_t at = (size_t)row * (size_t)ground->side + (size_t)column;
+    return fmax((double)ground->height[at] - shift.z, floor_level);
+}
+
+/* Sets open to the fraction of each node's cell where water can be, from four columns of each cell. */
+static void find_open(sb_density *density, const sb_frame *frame, const sb_ground *ground, int threads)
+{
+    const double cell = (double)density->cell, floor_level = ground->floor_level - frame->origin.z;
+    const sb_vec3 shift = sb_sub(frame->origin, ground->origin);
+    const size_t layer = density->n[0] * density->n[1];
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (size_t j = 0; j < density->n[1]; j++)
+        for (size_t i = 0; i < density->n[0]; i++) {
+            double height[4];
+            for (int c = 0; c < 4; c++) {
+                const double x = (double)density->min[0] + cell * ((double)i + (c & 1 ? 0.25 : -0.25));
+                const double y = (double)density->min[1] + cell * ((double)j + (c & 2 ? 0.25 : -0.25));
+                height[c] = height_at(ground, shift, x, y, floor_level);
+            }
+            float *open = density->open + j * density->n[0] + i;
+            for (size_t k = 0; k < density->n[2]; k++) {
+                const double z = (double)density->min[2] + cell * (double)k;
+                float share = 0;
+                for (int c = 0; c < 4; c++) share += share_above(z, cell, height[c]);
+                open[k * layer] = 0.25f * share;
+            }
+        }
+}
+
+/* Divides the density by the open fraction, smoothed in the same way (a normalised convolution): the density of water
+   at a wall is then that of the water in front of it. */
+static sb_status extend_to_walls(sb_density *density, const sb_frame *frame, const sb_ground *ground, int threads,
+                                 sb_error *error)
+{
+    const size_t count = density->n[0] * density->n[1] * density->n[2];
+    const float least = 0.06f;
+    if (sb_grow((void **)&density->open, &density->capacity[2], count, sizeof(float)) != 0)
+        return sb_fail_memory(error, "the density of water in a picture");
+    find_open(density, frame, ground, threads);
+    float *open = density->open, *spare = density->spare;
+    smooth_all(density, &open, &spare, threads);
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (size_t i = 0; i < count; i++) density->node[i] /= open[i] > least ? open[i] : least;
+    /* An odd number of exchanges: the arrays have changed places, and with them their capacities. */
+    density->open = open;
+    density->spare = spare;
+    const size_t capacity = density->capacity[1];
+    density->capacity[1] = density->capacity[2];
+    density->capacity[2] = capacity;
+    return SB_OK;
+}
+
+sb_status sb_density_build(sb_density *density, const sb_frame *frame, const sb_ground *ground, int threads,
+                           sb_error *error)
 {
     density->n[0] = density->n[1] = density->n[2] = 1;
     float min[3], max[3];
     if (!bounds(frame, min, max)) return SB_OK;
     sb_status status = make_grid(density, min, max, frame->spacing, error);
     if (status != SB_OK) return status;
-    spread(density, frame);
-    size_t stride = 1, count = density->n[0] * density->n[1] * density->n[2];
-    for (int a = 0; a < 3; a++) {
-        smooth(density->node, density->spare, count, stride);
-        float *other = density->node;
-        density->node = density->spare;
-        density->spare = other;
-        size_t capacity = density->capacity[0];
-        density->capacity[0] = density->capacity[1];
-        density->capacity[1] = capacity;
-        stride *= density->n[a];
-    }
-    return SB_OK;
+    density->slice = min[1] >= max[1] && (max[0] > min[0] || max[2] > min[2]);
+    spread(density, frame, threads);
+    smooth_all(density, &density->node, &density->spare, threads);
+    const size_t capacity = density->capacity[0];
+    density->capacity[0] = density->capacity[1];
+    density->capacity[1] = capacity;
+    return ground && ground->side > 0 ? extend_to_walls(density, frame, ground, threads, error) : SB_OK;
 }
 
 void sb_density_free(sb_density *density)
 {
     sb_free(density->node);
     sb_free(density->spare);
+    sb_free(density->open);
     *density = (sb_density){0};
 }
 

@@ -9,13 +9,13 @@
 /* clang-format off */
 #define SB_GL_FUNCTIONS(F) F(ActiveTexture) F(AttachShader) F(BindBuffer) F(BindFramebuffer) F(BindRenderbuffer) \
     F(BindTexture) F(BindVertexArray) F(BlendFunc) F(BufferData) F(CheckFramebufferStatus) F(Clear) F(ClearColor) \
-    F(ClearDepth) F(ClearStencil) F(CompileShader) F(CreateProgram) F(CreateShader) F(CullFace) F(DeleteBuffers) \
+    F(ClearDepth) F(ColorMask) F(CompileShader) F(CreateProgram) F(CreateShader) F(CullFace) F(DeleteBuffers) \
     F(DeleteFramebuffers) F(DeleteProgram) F(DeleteRenderbuffers) F(DeleteShader) F(DeleteTextures) \
-    F(DeleteVertexArrays) F(DepthFunc) F(DepthMask) F(Disable) F(DrawArrays) F(DrawBuffer) F(Enable) \
+    F(DeleteVertexArrays) F(DepthFunc) F(DepthMask) F(Disable) F(DrawArrays) F(DrawBuffer) F(DrawBuffers) F(Enable) \
     F(EnableVertexAttribArray) F(FramebufferRenderbuffer) F(FramebufferTexture2D) F(GenBuffers) F(GenFramebuffers) \
     F(GenRenderbuffers) F(GenTextures) F(GenVertexArrays) F(GetError) F(GetProgramInfoLog) F(GetProgramiv) \
     F(GetShaderInfoLog) F(GetShaderiv) F(GetTexImage) F(GetUniformLocation) F(LineWidth) F(LinkProgram) \
-    F(PolygonOffset) F(ReadBuffer) F(ReadPixels) F(RenderbufferStorage) F(ShaderSource) F(StencilFunc) F(StencilOp) \
+    F(PolygonOffset) F(ReadBuffer) F(ReadPixels) F(RenderbufferStorage) F(ShaderSource) \
     F(TexImage2D) F(TexParameteri) F(Uniform1f) F(Uniform1i) F(Uniform2f) F(Uniform2i) F(Uniform3fv) \
     F(UniformMatrix4fv) F(UseProgram) F(VertexAttribPointer) F(Viewport)
 /* clang-format on */

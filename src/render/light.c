@@ -11,7 +11,9 @@ enum { SHADOW_SIDE = 2048, GROUND_SIDE = 512 };
 /* Unit vector towards the sun. It is high and to the side, so that waves and walls have a bright and a dark face. */
 static const float sun[3] = {0.30f, -0.62f, 0.725f};
 
-const char sb_light_source[] = "uniform vec3 eye, sun, ground_frame;\n"
+const char sb_light_source[] = "uniform vec3 eye, sun, ground_frame, right, up, back;\n"
+                               "uniform vec2 lens;\n"
+                               "uniform float shadows;\n"
                                "uniform sampler2DShadow shadow_map;\n"
                                "uniform sampler2D ground_map;\n"
                                "uniform mat4 to_shadow;\n"
@@ -33,14 +35,17 @@ const char sb_light_source[] = "uniform vec3 eye, sun, ground_frame;\n"
                                "  return mix(map.y, 1.0, clamp((p.z - map.x) * 0.03, 0.0, 1.0));\n"
                                "}\n"
                                "float sunlit(vec3 p, vec3 n) {\n"
+                               "  if (shadows < 0.5) return 1.0;\n"
                                "  vec3 s = (to_shadow * vec4(p + n * (0.002 / ground_frame.z), 1.0)).xyz;\n"
                                "  return texture(shadow_map, s);\n"
                                "}\n"
-                               "vec3 lit(vec3 albedo, vec3 p, vec3 n) {\n"
+                               /* sunny: fraction of the sun that the water lets through; open: fraction of the sky that
+                                  near surfaces leave. */
+                               "vec3 lit(vec3 albedo, vec3 p, vec3 n, float sunny, float open) {\n"
                                "  float direct = max(dot(n, sun), 0.0);\n"
-                               "  direct *= sunlit(p, n);\n"
+                               "  if (direct > 0.0) direct *= min(sunlit(p, n), sunny) * mix(1.0, open, 0.35);\n"
                                "  vec3 dome = mix(vec3(0.22, 0.21, 0.19), vec3(0.30, 0.37, 0.47), 0.5 + 0.5 * n.z);\n"
-                               "  return albedo * (direct * vec3(1.22, 1.13, 0.98) + openness(p, n) * dome);\n"
+                               "  return albedo * (direct * vec3(1.22, 1.13, 0.98) + openness(p, n) * open * dome);\n"
                                "}\n"
                                "vec3 hazed(vec3 color, vec3 p) {\n"
                                "  return mix(vec3(0.70, 0.77, 0.82), color, exp(-haze * distance(p, eye)));\n"
@@ -177,6 +182,12 @@ static sb_status make_ground(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, 
     light->ground_frame[0] = (float)(min.x - 0.005 * side);
     light->ground_frame[1] = (float)(min.y - 0.005 * side);
     light->ground_frame[2] = (float)(1 / (1.01 * side));
+    light->solid.side = N;
+    light->solid.height = height;
+    light->solid.x = min.x - 0.005 * side;
+    light->solid.y = min.y - 0.005 * side;
+    light->solid.per_cell = N / (1.01 * side);
+    height = NULL;
 done:
     sb_gl.DeleteTextures(1, &depth);
     sb_free(height);
@@ -203,7 +214,7 @@ static sb_status make_shadow(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, 
 sb_status sb_light_create(const sb_meshes *meshes, sb_vec3 origin, sb_vec3 min, sb_vec3 max, double sea_level,
                           sb_light *light, sb_error *error)
 {
-    sb_light made = {.origin = origin, .sea_level = sea_level};
+    sb_light made = {.origin = origin, .sea_level = sea_level, .solid.origin = origin};
     min = sb_sub(min, origin);
     max = sb_sub(max, origin);
     made.size = sb_norm(sb_sub(max, min));
@@ -221,7 +232,22 @@ void sb_light_destroy(sb_light *light)
 {
     sb_gl.DeleteTextures(1, &light->shadow);
     sb_gl.DeleteTextures(1, &light->ground);
+    sb_free(light->solid.height);
     *light = (sb_light){0};
+}
+
+static void set_axis(GLuint program, const char *name, sb_vec3 axis)
+{
+    const float value[3] = {(float)axis.x, (float)axis.y, (float)axis.z};
+    sb_uniform_vec3(program, name, value);
+}
+
+void sb_light_bind_rays(const sb_view *view, GLuint program)
+{
+    set_axis(program, "right", view->right);
+    set_axis(program, "up", view->up);
+    set_axis(program, "back", view->back);
+    sb_uniform_vec2(program, "lens", view->tangent * view->aspect, view->tangent);
 }
 
 void sb_light_bind(const sb_light *light, const sb_view *view, GLuint program)
@@ -232,6 +258,8 @@ void sb_light_bind(const sb_light *light, const sb_view *view, GLuint program)
     sb_uniform_vec3(program, "sun", sun);
     sb_uniform_vec3(program, "ground_frame", light->ground_frame);
     sb_uniform_mat4(program, "to_shadow", light->to_shadow);
+    sb_light_bind_rays(view, program);
+    sb_uniform_float(program, "shadows", light->shadows);
     sb_uniform_float(program, "haze", 0.13 / light->size);
     sb_uniform_texture(program, "shadow_map", 4, light->shadow);
     sb_uniform_texture(program, "ground_map", 5, light->ground);

@@ -5,7 +5,10 @@
 
 #include "base/vec.h"
 #include "render/camera.h"
+#include "render/density.h"
 #include "render/program.h"
+
+#include <stdbool.h>
 
 typedef struct sb_meshes sb_meshes;
 
@@ -15,12 +18,14 @@ typedef struct sb_light {
     float ground_frame[3]; /* m: x, y of the ground map's corner; 1/m: one over its side */
     sb_vec3 origin;        /* m, scene: the origin of the two members above */
     double size;           /* m, diagonal of the lit box */
+    sb_ground solid;       /* heights of the bodies that never move */
     double sea_level;      /* m, scene */
+    bool shadows;          /* whether bodies and water cast shadows */
 } sb_light;
 
-/* GLSL functions for fragment shaders: vec3 sky(vec3 direction), vec3 lit(vec3 albedo, vec3 place, vec3 normal), vec3
-   hazed(vec3 color, vec3 place), vec4 encoded(vec3 color), and the uniforms that they read. Colours are linear; the
-   picture is encoded with a gamma of 2. */
+/* GLSL functions for fragment shaders: vec3 sky(vec3 direction), vec3 lit(vec3 albedo, vec3 place, vec3 normal, float
+   sunny, float open), vec3 hazed(vec3 color, vec3 place), vec4 encoded(vec3 color), and the uniforms that they read.
+   Colours are linear; the picture is encoded with a gamma of 2. */
 extern const char sb_light_source[];
 
 /* Creates the maps. [min, max] is the lit box in scene coordinates. The context must be current. A zeroed sb_light may
@@ -31,6 +36,10 @@ void sb_light_destroy(sb_light *light);
 
 /* Sets the uniforms of sb_light_source for the program in use. Uses the texture units 4 and 5. */
 void sb_light_bind(const sb_light *light, const sb_view *view, GLuint program);
+
+/* Sets the uniforms from which passes over the whole picture compute the ray of a pixel: right, up, back (the camera's
+   axes) and lens (half the picture's width and height at depth 1). sb_light_bind sets them, too. */
+void sb_light_bind_rays(const sb_view *view, GLuint program);
 
 /* Computes the fraction of the sky, 0..1, that is visible from each cell of an n x n height field (m, row by row) over
    its surroundings. cell: side of a cell, m. Used for the ground map and by tests. */

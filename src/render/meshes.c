@@ -19,7 +19,7 @@ struct corner {
 struct part {
     char name[SB_NAME_MAX];
     size_t body; /* index in the model, and so in a frame */
-    bool moves, one_sided;
+    bool moves, one_sided, terrain;
     float line_alpha;
     GLint first_corner, first_line;
     GLsizei corners, line_ends;
@@ -50,13 +50,16 @@ static const char face_vertex[] = "layout(location = 0) in vec3 position;\n"
                                   "  gl_Position = clip * vec4(place, 1.0);\n"
                                   "}\n";
 
-/* Terrain without a colour in the scene: sand around the still-water level, grass above it, rock where it is steep, and
+/* The faces' colour and normal; the alpha of the colour is the kind of the body. Light is added by sb_compose_draw.
+   Terrain without a colour in the scene: sand around the still-water level, grass above it, rock where it is steep, and
    a coarse noise that gives large slopes a texture. */
 static const char face_fragment[] =
     "in vec3 place, slope;\n"
     "in vec4 paint;\n"
-    "out vec4 color;\n"
-    "uniform float sea_level, unit;\n"
+    "layout(location = 0) out vec4 color;\n"
+    "layout(location = 1) out vec4 facing;\n"
+    "uniform vec3 eye;\n"
+    "uniform float sea_level, unit, kind;\n"
     "uniform sampler2D speckles;\n"
     "float noise(vec2 p) { return texture(speckles, p / 64.0).x - 0.5; }\n"
     "vec3 ground(vec3 n) {\n"
@@ -72,7 +75,8 @@ static const char face_fragment[] =
     "  vec3 n = normalize(slope);\n"
     "  if (dot(n, eye - place) < 0.0) n = -n;\n"
     "  vec3 albedo = paint.a > 0.5 ? ground(n) : paint.rgb * paint.rgb;\n"
-    "  color = encoded(hazed(lit(albedo, place, n), place));\n"
+    "  color = vec4(sqrt(clamp(albedo, 0.0, 1.0)), kind);\n"
+    "  facing = vec4(n, 0.0);\n"
     "}\n";
 
 static const char line_vertex[] = "layout(location = 0) in vec3 position;\n"
@@ -137,6 +141,7 @@ static sb_status gather(const sb_model_body *body, sb_vec3 origin, struct upload
     snprintf(part->name, sizeof part->name, "%s", body->name);
     part->moves = body->wavemaker >= 0;
     part->one_sided = mesh->open_surface && body->role != SB_ROLE_TERRAIN;
+    part->terrain = body->role == SB_ROLE_TERRAIN;
     part->line_alpha = body->role == SB_ROLE_TERRAIN ? 0.25f : 0.75f;
     part->first_corner = (GLint)upload->corner_count;
     part->first_line = (GLint)upload->end_count;
@@ -206,8 +211,7 @@ static sb_status make_speckles(sb_meshes *meshes, sb_error *error)
 
 static sb_status make_programs(sb_meshes *meshes, sb_error *error)
 {
-    sb_status status =
-        sb_program_create("faces", face_vertex, sb_light_source, face_fragment, &meshes->face_program, error);
+    sb_status status = sb_program_create("faces", face_vertex, NULL, face_fragment, &meshes->face_program, error);
     if (status == SB_OK)
         status = sb_program_create("shadow", face_vertex, NULL, depth_fragment, &meshes->depth_program, error);
     if (status == SB_OK)
@@ -323,6 +327,7 @@ void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const 
         else
             sb_gl.Disable(GL_CULL_FACE);
         set_shift(program, part, frame);
+        sb_uniform_float(program, "kind", part->terrain ? SB_MESHES_TERRAIN : SB_MESHES_BODY);
         sb_gl.DrawArrays(GL_TRIANGLES, part->first_corner, part->corners);
     }
     sb_gl.Disable(GL_CULL_FACE);

@@ -18,7 +18,12 @@ void sb_meshes_destroy(sb_meshes *meshes);
 /* Draws only the depth of the closed bodies and of the terrain that never move, with the given clip matrix. */
 void sb_meshes_draw_depth(const sb_meshes *meshes, const float clip[16]);
 
-/* Draws the lit faces. Moving bodies are displaced by the frame's displacements (matched by index, else by name). */
+/* Kinds of bodies in the alpha channel of the faces' colours; 0: no body. */
+#define SB_MESHES_BODY 0.5
+#define SB_MESHES_TERRAIN 1.0
+
+/* Draws the faces' colours (square root of the linear colour, kind) and normals (scene axes, towards the eye) to two
+   targets. Moving bodies are displaced by the frame's displacements (matched by index, else by name). */
 void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const sb_view *view, const sb_frame *frame);
 
 /* Draws the feature edges as thin dark lines; nearer surfaces hide them. */

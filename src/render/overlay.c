@@ -29,7 +29,7 @@ static void fill(sb_image *image, double x0, double y0, double x1, double y1, co
         }
 }
 
-static sb_status color_bar(sb_image *image, double unit, double speed_max, sb_error *error)
+static sb_status color_bar(sb_image *image, double unit, const sb_legend *legend, sb_error *error)
 {
     static const float dark[3] = {0.02f, 0.05f, 0.09f};
     double width = 300 * unit, thick = 13 * unit;
@@ -38,16 +38,19 @@ static sb_status color_bar(sb_image *image, double unit, double speed_max, sb_er
     fill(image, x - 1.5, y - 1.5, x + width + 1.5, y + thick + 1.5, dark, 0.55);
     for (int column = 0; column < (int)lround(width); column++) {
         float rgb[3];
-        sb_colormap((column + 0.5) / width, rgb);
+        sb_colormap(legend->map, (column + 0.5) / width, rgb);
         fill(image, x + column, y, x + column + 1, y + thick, rgb, 1);
     }
-    double letters = 11 * unit, step = sb_overlay_tick(speed_max, 5);
-    sb_status status = sb_font_draw(image, x, y - 9 * unit, letters, ink, "speed  m/s", error);
-    const int ticks = step > 0 && isfinite(step) ? (int)floor(speed_max / step * (1 + 1e-9)) : 0;
+    const double range = legend->max - legend->min, letters = 11 * unit, step = sb_overlay_tick(range, 5);
+    sb_status status = sb_font_draw(image, x, y - 9 * unit, letters, ink, legend->label, error);
+    if (!(step > 0 && isfinite(step))) return status;
+    const double first = ceil(legend->min / step - 1e-9);
+    const int ticks = (int)floor(legend->max / step - first + 1e-9);
     for (int tick = 0; tick <= ticks && status == SB_OK; tick++) {
         char label[32];
-        snprintf(label, sizeof label, "%.6g", tick * step);
-        double at = x + width * (tick * step / speed_max);
+        const double value = (first + tick) * step;
+        snprintf(label, sizeof label, "%.6g", value);
+        double at = x + width * ((value - legend->min) / range);
         fill(image, at - 0.5 * unit, y + thick, at + 0.9 * unit, y + thick + 5 * unit, ink, 0.9);
         status = sb_font_draw(image, at - 0.5 * sb_font_width(label, letters), y + thick + 20 * unit, letters, ink,
                               label, error);
@@ -55,7 +58,7 @@ static sb_status color_bar(sb_image *image, double unit, double speed_max, sb_er
     return status;
 }
 
-sb_status sb_overlay_draw(sb_image *image, const char *title, double time, double speed_max, sb_error *error)
+sb_status sb_overlay_draw(sb_image *image, const char *title, double time, const sb_legend *legend, sb_error *error)
 {
     if (image->height < SB_OVERLAY_HEIGHT_MIN) return SB_OK;
     double unit = image->height / 720.0;
@@ -72,5 +75,5 @@ sb_status sb_overlay_draw(sb_image *image, const char *title, double time, doubl
         line += 31 * unit;
     }
     if (status == SB_OK) status = sb_font_draw(image, 30 * unit, line, 15 * unit, ink, clock, error);
-    return status == SB_OK ? color_bar(image, unit, speed_max, error) : status;
+    return status == SB_OK ? color_bar(image, unit, legend, error) : status;
 }

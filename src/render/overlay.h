@@ -6,8 +6,15 @@
 
 enum { SB_OVERLAY_HEIGHT_MIN = 200 }; /* px: in lower pictures the text would cover the content, so it is omitted */
 
-/* title may be NULL; time in s; speed_max: the speed at the upper end of the colour map, m/s. */
-sb_status sb_overlay_draw(sb_image *image, const char *title, double time, double speed_max, sb_error *error);
+/* The colours of the water. min < max: the values at both ends of the colour map. */
+typedef struct sb_legend {
+    const char *label; /* with the unit */
+    int map;
+    double min, max;
+} sb_legend;
+
+/* title may be NULL; time in s. */
+sb_status sb_overlay_draw(sb_image *image, const char *title, double time, const sb_legend *legend, sb_error *error);
 
 /* Returns the smallest step of 1, 2 or 5 times a power of ten that divides `range` into at most `most` intervals. */
 double sb_overlay_tick(double range, int most);

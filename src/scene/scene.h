@@ -382,6 +382,16 @@ typedef struct sb_orbit {
     double from;           /* degrees from +x, at t = 0 */
 } sb_orbit;
 
+typedef enum sb_water_style { SB_WATER_SURFACE, SB_WATER_PARTICLES } sb_water_style;
+typedef enum sb_water_color {
+    SB_COLOR_SPEED,
+    SB_COLOR_PRESSURE,
+    SB_COLOR_VORTICITY,
+    SB_COLOR_DEPTH,
+    SB_COLOR_MOMENTUM_FLUX,
+    SB_WATER_COLORS
+} sb_water_color;
+
 typedef struct sb_camera {
     char name[SB_NAME_MAX];
     sb_camera_kind kind;
@@ -393,6 +403,9 @@ typedef struct sb_camera {
     char body[SB_NAME_MAX]; /* close-up: it fills the picture */
     sb_vec3 direction;      /* from the body to the eye, of any length */
     double margin;          /* distance, over that at which the body's box just fits */
+    sb_water_style style;
+    sb_water_color color;
+    double color_min, color_max; /* in the unit of the colour's field; both 0: a range that fits the scene */
 } sb_camera;
 
 /* A picture of a size of its own at one time. */
@@ -412,12 +425,17 @@ typedef struct sb_render_settings {
     int width, height; /* px */
     double speed_max;  /* m/s at the top of the colour map; 0: 2 sqrt(g D) of the scene */
     int video_rate;    /* pictures per second of video */
-    bool video;        /* join pictures to <camera>.mp4 if ffmpeg is installed */
     size_t still_count;
     sb_still *stills;              /* in increasing order */
     int still_width, still_height; /* px */
     size_t inset_count;
     sb_inset *insets;
+    bool scale_bar;
+    sb_vec3 north; /* horizontal; 0: no arrow */
+    bool shadows, occlusion;
+    bool wet_ground;     /* ground that the water has reached is darker */
+    bool greatest_depth; /* the greatest depth so far is painted on the terrain */
+    bool video;          /* join pictures to <camera>.mp4 if ffmpeg is installed */
     size_t camera_count;
     sb_camera *cameras;
 } sb_render_settings;

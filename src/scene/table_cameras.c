@@ -94,6 +94,9 @@ static unsigned camera_variant(const void *item, const sb_yaml *map)
     return sb_yaml_child(map, "follow") ? FOLLOW : FIXED;
 }
 
+static const char *const style_words[] = {"surface", "particles", NULL};
+static const char *const color_words[] = {"speed", "pressure", "vorticity", "depth", "momentum_flux", NULL};
+
 /* clang-format off */
 static const sb_key camera_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_camera, name), .flags = SB_KEY_REQUIRED,
@@ -133,6 +136,14 @@ static const sb_key camera_keys[] = {
     {.name = "margin", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera, margin), .min = 1, .max = 100, .applies = CLOSEUP,
      .fallback = "1.4", .only = "a camera close to a body",
      .doc = "Distance of the camera, divided by that at which the body's box just fits into the picture."},
+    {.name = "style", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_camera, style), .words = style_words,
+     .fallback = "surface", .doc = "How the water is drawn: a smooth surface, or its particles as spheres."},
+    {.name = "color", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_camera, color), .words = color_words,
+     .fallback = "speed", .doc = "Field that colours the water; see [pictures](pictures.md#colours)."},
+    {.name = "color_min", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera, color_min), SB_KEY_ANY, .fallback = "0",
+     .doc = "Value at the lower end of the colour map, in the field's unit."},
+    {.name = "color_max", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera, color_max), SB_KEY_ANY, .fallback = "0",
+     .doc = "Value at the upper end, above color_min; 0 with color_min 0: chosen for the scene."},
 };
 /* clang-format on */
 
@@ -171,6 +182,10 @@ static sb_status finish_follow(sb_reader *reader, const sb_yaml *map, sb_follow 
 static sb_status finish_camera(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_camera *camera = item;
+    const bool chosen = camera->color_min == 0 && camera->color_max == 0;
+    if (!chosen && !(camera->color_max > camera->color_min))
+        return sb_reader_fail(reader, map, "color_max", "is %g, expected more than color_min, %g", camera->color_max,
+                              camera->color_min);
     const unsigned variant = camera_variant(camera, map);
     camera->kind = variant == FOLLOW    ? SB_CAMERA_FOLLOW
                    : variant == ORBIT   ? SB_CAMERA_ORBIT

@@ -90,6 +90,19 @@ static const sb_key render_keys[] = {
     {.name = "insets", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_render_settings, insets, inset_count),
      .table = &inset_table,
      .doc = "Plots in each picture of forces and water levels up to its time, at most 4, from the lower left upwards."},
+    {.name = "shadows", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, shadows), .fallback = "true",
+     .doc = "Whether bodies and water cast shadows."},
+    {.name = "occlusion", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, occlusion), .fallback = "true",
+     .doc = "Whether corners and gaps are darker, because near surfaces hide a part of the sky."},
+    {.name = "wet_ground", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, wet_ground), .fallback = "false",
+     .doc = "Whether ground and walls that the water has reached are darker."},
+    {.name = "greatest_depth", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, greatest_depth),
+     .fallback = "false", .doc = "Whether the greatest depth so far is painted on terrain above the still water."},
+    {.name = "scale_bar", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, scale_bar), .fallback = "true",
+     .doc = "Whether a bar shows the length of an object at the camera's target."},
+    {.name = "north", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_render_settings, north), SB_KEY_ANY,
+     .flags = SB_KEY_FULL, .fallback = "[0, 0, 0]",
+     .doc = "Direction of north, horizontal, for an arrow; [0, 0, 0]: no arrow."},
     {.name = "cameras", .type = SB_KEY_LIST,
      SB_KEY_ITEMS(sb_render_settings, cameras, camera_count), .table = &sb_camera_table,
      .doc = "Cameras. Each makes its own pictures and film."},
@@ -115,6 +128,9 @@ static sb_status finish_render(sb_reader *reader, const sb_yaml *map, void *item
                                   "%g s of entry %zu is not later than %g s of the entry before, expected increasing "
                                   "times",
                                   render->stills[i].time, i, render->stills[i - 1].time);
+    if (render->north.z != 0)
+        return sb_reader_fail(reader, map, "north", "has the height %g, expected a horizontal direction with z = 0",
+                              render->north.z);
     return sb_reader_interval(reader, map, "interval", render->interval);
 }
 

@@ -5,6 +5,7 @@
 #include "render/font.h"
 #include "render/image.h"
 #include "render/light.h"
+#include "render/marks.h"
 #include "render/outline.h"
 #include "render/overlay.h"
 #include "render/soften.h"
@@ -39,22 +40,24 @@ static void colormap_lightness_rises_linearly(void **state)
     (void)state;
     enum { STEPS = 64 };
     float rgb[3];
-    sb_colormap(0, rgb);
-    double first = lightness(rgb), last = first;
-    assert_true(rgb[2] > 2 * rgb[0] && rgb[2] > rgb[1]);
-    sb_colormap(1, rgb);
-    double mean = (lightness(rgb) - first) / STEPS;
-    assert_true(mean * STEPS > 70);
-    for (int i = 1; i <= STEPS; i++) {
-        sb_colormap((double)i / STEPS, rgb);
-        double rise = lightness(rgb) - last;
-        assert_true(rise > 0.9 * mean && rise < 1.1 * mean);
-        last += rise;
-        for (int c = 0; c < 3; c++) assert_true(rgb[c] > 0 && rgb[c] < 1); /* no component is clipped */
+    for (int map = 0; map < SB_COLORMAPS; map++) {
+        sb_colormap(map, 0, rgb);
+        double first = lightness(rgb), last = first;
+        assert_true(rgb[2] > rgb[0] && rgb[2] > rgb[1]);
+        sb_colormap(map, 1, rgb);
+        double mean = (lightness(rgb) - first) / STEPS;
+        assert_true(mean * STEPS > 70);
+        for (int i = 1; i <= STEPS; i++) {
+            sb_colormap(map, (double)i / STEPS, rgb);
+            double rise = lightness(rgb) - last;
+            assert_true(rise > 0.9 * mean && rise < 1.1 * mean);
+            last += rise;
+            for (int c = 0; c < 3; c++) assert_true(rgb[c] > 0 && rgb[c] < 1); /* no component is clipped */
+        }
     }
     float low[3], high[3];
-    sb_colormap(-3, low);
-    sb_colormap((double)NAN, high);
+    sb_colormap(0, -3, low);
+    sb_colormap(0, (double)NAN, high);
     assert_memory_equal(low, high, sizeof low);
     const float white[3] = {1, 1, 1}, grey[3] = {0.5f, 0.5f, 0.5f};
     assert_true(fabs(lightness(white) - 100) < 0.01);
@@ -188,8 +191,49 @@ static void ticks_are_round_numbers(void **state)
     sb_error error = {0};
     assert_int_equal(sb_image_resize(&image, 640, 360, &error), SB_OK);
     static const double speeds[] = {5e-324, 1e-300, 1e300, 1.7976931348623157e308};
-    for (size_t i = 0; i < sizeof speeds / sizeof *speeds; i++)
-        assert_int_equal(sb_overlay_draw(&image, "title", 1, speeds[i], &error), SB_OK);
+    for (size_t i = 0; i < sizeof speeds / sizeof *speeds; i++) {
+        const sb_legend legend = {"speed  m/s", SB_COLORMAP_SEA, 0, speeds[i]};
+        assert_int_equal(sb_overlay_draw(&image, "title", 1, &legend, &error), SB_OK);
+    }
+    sb_image_free(&image);
+}
+
+/* The bar is as long as the object of its label is at the target, and the arrow points north. */
+static void marks_measure_the_scene(void **state)
+{
+    (void)state;
+    enum { W = 640, H = 360 };
+    sb_image image = {0};
+    sb_error error = {0};
+    assert_int_equal(sb_image_resize(&image, W, H, &error), SB_OK);
+    memset(image.rgb, 60, (size_t)W * H * 3);
+    /* At a distance of 100 m under 90 degrees, 360 px are 200 m: 50 m are 90 px. */
+    const sb_camera_key key = {0, {0, -100, 0}, {0, 0, 0}, 90, SB_EASE_SMOOTH};
+    const sb_view view = sb_view_create(&key, (double)W / H, sb_vec(-50, -50, -50), sb_vec(50, 50, 50));
+    assert_int_equal(sb_marks_scale(&image, &view, key.target, &error), SB_OK);
+    int first = W, last = 0;
+    const int row = (int)(H - 42 * 0.6);
+    for (int x = 0; x < W; x++)
+        if (image.rgb[3 * (row * W + x)] > 200) {
+            first = x < first ? x : first;
+            last = x > last ? x : last;
+        }
+    assert_in_range(last - first, 89, 93);
+    /* East is at the right of this view, so that the letter is at the right end of the arrow. */
+    memset(image.rgb, 60, (size_t)W * H * 3);
+    assert_int_equal(sb_marks_north(&image, &view, key.target, sb_vec(1, 0, 0), &error), SB_OK);
+    int left = 0, right = 0;
+    for (int y = 0; y < 80; y++)
+        for (int x = W - 100; x < W; x++) {
+            const bool bright = image.rgb[3 * (y * W + x)] > 200;
+            if (x < W - 38)
+                left += bright;
+            else
+                right += bright;
+        }
+    assert_true(left > 10 && right > 2 * left);
+    /* Behind the eye there is nothing to measure. */
+    assert_int_equal(sb_marks_scale(&image, &view, sb_vec(0, -200, 0), &error), SB_OK);
     sb_image_free(&image);
 }
 
@@ -260,7 +304,7 @@ static void density_is_one_inside(void **state)
     sb_frame *frame = block(24, 24);
     sb_density density = {0};
     sb_error error = {0};
-    assert_int_equal(sb_density_build(&density, frame, &error), SB_OK);
+    assert_int_equal(sb_density_build(&density, frame, NULL, 2, &error), SB_OK);
     assert_true(fabsf(sb_density_at(&density, 6, 6, 6) - 1) < 0.08f);
     assert_true(fabsf(sb_density_at(&density, 6, 6, 11.75f) - 0.5f) < 0.12f);
     assert_true(sb_density_at(&density, 6, 6, 14) < 0.01f);
@@ -270,10 +314,10 @@ static void density_is_one_inside(void **state)
     frame->position[0] = 9e6f;
     frame->position[4] = NAN;
     frame->position[8] = INFINITY;
-    assert_int_equal(sb_density_build(&density, frame, &error), SB_OK);
+    assert_int_equal(sb_density_build(&density, frame, NULL, 2, &error), SB_OK);
     assert_true(density.n[0] * density.n[1] * density.n[2] < 30000000);
     frame->spacing = 5e-324; /* a file may contain this value */
-    assert_int_equal(sb_density_build(&density, frame, &error), SB_OK);
+    assert_int_equal(sb_density_build(&density, frame, NULL, 2, &error), SB_OK);
     sb_density_free(&density);
     sb_frame_release(frame);
 }
@@ -282,11 +326,13 @@ static void only_the_surface_is_visible(void **state)
 {
     (void)state;
     sb_frame *frame = block(40, 40);
+    float *values = sb_alloc(frame->count, sizeof *values);
+    assert_non_null(values);
     sb_camera_key key = {.eye = {10, 10, 60}, .target = {10, 10, 0}, .fov = 60};
     sb_view view = sb_view_create(&key, 1, sb_vec(0, 0, 0), sb_vec(20, 20, 20));
     sb_visible visible = {0};
     sb_error error = {0};
-    assert_int_equal(sb_visible_collect(&visible, frame, &view, 1, &error), SB_OK);
+    assert_int_equal(sb_visible_collect(&visible, frame, values, NULL, &view, 2, &error), SB_OK);
     size_t top = 0;
     for (size_t i = 0; i < visible.count; i++) {
         const sb_visible_point *point = &visible.points[i];
@@ -301,11 +347,10 @@ static void only_the_surface_is_visible(void **state)
     /* A camera that is turned away sees no particle. */
     key.target.z = 100;
     view = sb_view_create(&key, 1, sb_vec(0, 0, 0), sb_vec(20, 20, 20));
-    assert_int_equal(sb_visible_collect(&visible, frame, &view, 1, &error), SB_OK);
+    assert_int_equal(sb_visible_collect(&visible, frame, values, NULL, &view, 2, &error), SB_OK);
     assert_int_equal(visible.count, 0);
-    frame->spacing = 0;
-    assert_int_equal(sb_visible_collect(&visible, frame, &view, 1, &error), SB_BAD_INPUT);
     sb_visible_free(&visible);
+    sb_free(values);
     sb_frame_release(frame);
 }
 
@@ -332,6 +377,7 @@ int main(void)
         cmocka_unit_test(text_ends_at_its_width),
         cmocka_unit_test(softening_changes_only_jagged_edges),
         cmocka_unit_test(ticks_are_round_numbers),
+        cmocka_unit_test(marks_measure_the_scene),
         cmocka_unit_test(outline_finds_the_edges_of_a_cube),
         cmocka_unit_test(density_is_one_inside),
         cmocka_unit_test(only_the_surface_is_visible),

@@ -33,7 +33,7 @@ static void a_carried_snapshot_is_that_of_the_step_before(void **state)
     tank t;
     const sb_wavemaker_parameters law = {
         .kind = sb_wavemaker_find("stroke"), .stroke = 1, .speed = 0.5, .gravity = 9.81};
-    tank_make(&t, 2, 0.05, sb_vec(2, 0, 1), 0.8, 0.6, 0);
+    tank_of_particles(&t, 2, 0.05, sb_vec(2, 0, 1), 0.8, 0.6, 0);
     const size_t plate = tank_add_plate(&t, "plate", 1.9, 0, 0.5, sb_vec(-1, 0, 0), &law);
     sb_sim *sim = tank_sim(&t);
     assert_non_null(sim);

@@ -252,7 +252,7 @@ static double fall_to(const tank *t, double fraction)
 static void a_falling_drop_has_its_known_entries(void **state)
 {
     tank t;
-    tank_make(&t, 3, 0.1, sb_vec(1, 1, 2), 1, 0.1, 0);
+    tank_of_particles(&t, 3, 0.1, sb_vec(1, 1, 2), 1, 0.1, 0);
     tank_use(&t, preset_of(state));
     sb_model *m = &t.model;
     m->fluid_count = 1;

@@ -12,7 +12,7 @@ static const double DEPTH = 0.6;
 static sb_sim *water_in(tank *t, int dimensions, sb_density_form form, double jitter)
 {
     const sb_vec3 size = dimensions == 2 ? sb_vec(1, 0, 1) : sb_vec(0.6, 0.5, 1);
-    tank_make(t, dimensions, 0.05, size, size.x, DEPTH, jitter);
+    tank_of_particles(t, dimensions, 0.05, size, size.x, DEPTH, jitter);
     t->scene.numerics.kernel = sb_kernel_find("wendland-c2");
     t->scene.numerics.support = 3;
     t->scene.numerics.density = form;

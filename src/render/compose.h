@@ -1,0 +1,39 @@
+/* Joins bodies, water and sky to a picture: light, shadows, reflection, and the bed seen through shallow water. */
+#ifndef SB_RENDER_COMPOSE_H
+#define SB_RENDER_COMPOSE_H
+
+#include "render/colormap.h"
+#include "render/occlusion.h"
+#include "render/scenery.h"
+#include "render/water.h"
+
+enum { SB_COMPOSE_PASSES = 5 };
+
+typedef struct sb_compose {
+    GLuint programs[SB_COMPOSE_PASSES], empty;
+    GLuint colors[SB_COLORMAPS];
+} sb_compose;
+
+/* What a picture consists of. */
+typedef struct sb_parts {
+    const sb_scenery *scenery;
+    const sb_water *water;
+    const sb_light *light;
+    const sb_occlusion *occlusion; /* NULL: none */
+    const sb_tops *shade;          /* the water as seen from the sun */
+    double shade_bias;             /* heights of `shade` by which water does not shade itself */
+    const sb_tops *reached;        /* highest water so far, m above the light's origin; NULL without the next two */
+    bool wet;                      /* ground that the water has reached is darker */
+    bool painted;                  /* paint the greatest depth on the ground */
+    double depth_max;              /* m, greatest depth at the upper end of its colours */
+    double thickest;               /* m, above which the thickness of the water is unknown */
+    int map;                       /* of the water's colours */
+} sb_parts;
+
+sb_status sb_compose_create(sb_compose *compose, sb_error *error);
+void sb_compose_destroy(sb_compose *compose);
+
+/* Draws all pixels and depths of the bound framebuffer. */
+void sb_compose_draw(const sb_compose *compose, const sb_parts *parts, const sb_view *view);
+
+#endif
