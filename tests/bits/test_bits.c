@@ -24,9 +24,9 @@ static const struct {
     const char *name, *file, *resolution;
     uint64_t fused, plain;
 } scenes[] = {
-    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0x63c668fe513f8377,
+    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0x8b6fd72810cf0eae,
      0xe75adf65d71ca058},
-    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0x9d10c0db1d33ed5e, 0x048c8aefea9fc790},
+    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0x3f311545c48e1684, 0x048c8aefea9fc790},
 };
 
 static const char settle[] = "numerics.settle_steps=20";

@@ -31,8 +31,8 @@ SB_INLINE moments gather(const sb_sim *sim, const sb_group *group, const sb_f4 *
 }
 
 /* Over the groups of four [from, to) of the list of particle i. */
-static sb_stress_sums sum_slopes(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i, size_t from,
-                                 size_t to)
+SB_INLINE sb_stress_sums sum_slopes(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i,
+                                    size_t from, size_t to)
 {
     const sb_f4 self = sb_in_group(sim, group, i);
     const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i];
@@ -50,8 +50,8 @@ static sb_stress_sums sum_slopes(const sb_sim *sim, const sb_group *group, const
 }
 
 /* The c of particle i, with images. */
-static float share_by_images(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i, float whole,
-                             float t)
+SB_INLINE float share_by_images(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i, float whole,
+                                float t)
 {
     const float share = sb_stress_share(sim, whole, t);
     const size_t direct = sb_direct(&sim->work.pairs, i), count = sim->work.pairs.count[i];
