@@ -15,5 +15,9 @@
 #define SB_MULTIVERSION
 #endif
 #define SB_INLINE static inline __attribute__((always_inline))
+/* A static function that computes in floats and that a function with SB_MULTIVERSION calls is either SB_INLINE,
+   compiled with its caller, or SB_APART, compiled once. Otherwise the compiler may choose, and the last digits with it.
+ */
+#define SB_APART static __attribute__((noinline))
 
 #endif

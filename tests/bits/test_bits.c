@@ -26,7 +26,7 @@ static const struct {
 } scenes[] = {
     {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0x8b6fd72810cf0eae,
      0xe75adf65d71ca058},
-    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0x3f311545c48e1684, 0x048c8aefea9fc790},
+    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0x797d7579f1494a70, 0x048c8aefea9fc790},
 };
 
 static const char settle[] = "numerics.settle_steps=20";

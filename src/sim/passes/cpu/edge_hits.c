@@ -69,8 +69,8 @@ static void close_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *list
 }
 
 /* Adds the pairs at edges of those weights [from, to) that belong to these hits. */
-static void add_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, uint32_t self, size_t from, size_t to,
-                      const sb_hits *h, sb_reflections *r)
+SB_APART void add_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, uint32_t self, size_t from,
+                        size_t to, const sb_hits *h, sb_reflections *r)
 {
     const float scale = sim->constant.mass * w->value_scale / (float)sim->space.quantum;
     if (w->images.slopes > SB_WEIGHT_SLOPES_MAX) {

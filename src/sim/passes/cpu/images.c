@@ -73,7 +73,7 @@ static bool add_image(const gatherer *g, uint32_t source, const route *to, bool 
 }
 
 /* Adds the images of a source, which is number `s` of those in hand, by the paths that go on from here. */
-static void reflect_on(gatherer *g, uint32_t source, size_t s, const route *from)
+SB_APART void reflect_on(gatherer *g, uint32_t source, size_t s, const route *from)
 {
     const sb_near *near = g->near;
     const sb_sources *of = g->sources;
@@ -135,7 +135,7 @@ static void find_box(const sb_sim *sim, const sb_group *group, sb_f4 *low, sb_f4
 }
 
 /* The images of all candidates. */
-static void reflect_candidates(gatherer *g)
+SB_APART void reflect_candidates(gatherer *g)
 {
     const sb_vicinity *v = g->v;
     sb_sources *of = g->sources;
@@ -151,7 +151,7 @@ static void reflect_candidates(gatherer *g)
 /* Which facets have water on both sides near the group, and, if any have, on which sides of all facets each record
    is. Each group that sees a pair across a facet finds water on both of its sides, so that the pair has the same weight
    in all of them. */
-static void find_parts(const gatherer *g)
+SB_APART void find_parts(const gatherer *g)
 {
     sb_near *near = g->near;
     g->images->parts = 0;
@@ -172,7 +172,7 @@ static void find_parts(const gatherer *g)
 }
 
 /* Removes the concave edges that no water near the group's box is beyond: it then sees no edge. */
-static void drop_edges(const sb_sim *sim, const sb_vicinity *v, const sb_box *box, sb_near *near)
+SB_APART void drop_edges(const sb_sim *sim, const sb_vicinity *v, const sb_box *box, sb_near *near)
 {
     const float support = sim->constant.support / (float)sim->space.quantum;
     uint32_t kept = 0;

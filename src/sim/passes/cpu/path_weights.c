@@ -27,8 +27,8 @@ static float error_function(float t, float e)
 /* Part of a path that passes an edge, as in the diffraction by a half plane [Sommerfeld 1896]: sign -1 for a path that
    is reflected on the edge's inner side, +1 for one that goes straight past its outer side. di, dj: its derivatives by
    (o, h) of either end. *before: the path passes the facet itself. */
-static float past_edge(sb_half_angle i, sb_half_angle j, float sign, float transition, float di[2], float dj[2],
-                       bool *before)
+SB_APART float past_edge(sb_half_angle i, sb_half_angle j, float sign, float transition, float di[2], float dj[2],
+                         bool *before)
 {
     const float t = 2 * (i.c * j.c + sign * i.s * j.s) / transition;
     di[0] = di[1] = dj[0] = dj[1] = 0;
@@ -148,7 +148,7 @@ static bool inside(const sb_near *near, const sb_near_facet *f, sb_f4 at)
 }
 
 /* Whether a facet other than the two given blocks the way from a to b. */
-static bool blocked(const sb_weigher *w, sb_f4 a, sb_f4 b, size_t skip, size_t other)
+SB_APART bool blocked(const sb_weigher *w, sb_f4 a, sb_f4 b, size_t skip, size_t other)
 {
     for (size_t k = 0; k < w->near->count; k++) {
         if (k == skip || k == other) continue;
@@ -194,7 +194,7 @@ sb_weight sb_at_facet(const sb_weigher *w, size_t a, sb_other_end j, bool *meets
 
 /* Whether a facet that reflections at facet a do not leave where it is blocks the way from one end of a leg to the
    other. */
-static bool leg_blocked(const sb_weigher *w, size_t a, sb_f4 from, sb_f4 to)
+SB_APART bool leg_blocked(const sb_weigher *w, size_t a, sb_f4 from, sb_f4 to)
 {
     for (size_t k = 0; k < w->near->count; k++) {
         const sb_near_facet *g = &w->near->facet[k];
@@ -221,8 +221,8 @@ void sb_finish_path(const sb_weigher *w, const size_t *by, int count, sb_f4 sour
 }
 
 /* Reflections at facets at right angles to each other, in any order. */
-static void reflected_squarely(const sb_weigher *w, const size_t *by, int count, sb_f4 source, sb_f4 image,
-                               sb_weight_parts *all)
+SB_APART void reflected_squarely(const sb_weigher *w, const size_t *by, int count, sb_f4 source, sb_f4 image,
+                                 sb_weight_parts *all)
 {
     bool meets = true;
     for (int k = 0; k < count && all->value >= SB_WEIGHT_LEAST; k++) {
@@ -249,7 +249,7 @@ static float share_of(const sb_weigher *w, const sb_near_facet *f, sb_f4 at)
 }
 
 /* Several reflections. at[0]: the particle; at[k]: its image by the first k planes. */
-static float reflected(const sb_weigher *w, const size_t *by, int count, const sb_f4 *at)
+SB_APART float reflected(const sb_weigher *w, const size_t *by, int count, const sb_f4 *at)
 {
     sb_f4 here = w->self;
     float share = 1;

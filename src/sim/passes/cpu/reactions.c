@@ -32,8 +32,8 @@ static void react_several(const sb_sim *sim, const sb_group *group, const sb_ima
 
 /* The force of a pair with an image by one reflection is along the plane's normal the sum of both ends' distances
    before the plane, times a factor. */
-static void react_reflected(const sb_sim *sim, const sb_group *group, uint32_t records, const sb_pull *pulls, size_t i,
-                            sb_reactions *reactions)
+SB_APART void react_reflected(const sb_sim *sim, const sb_group *group, uint32_t records, const sb_pull *pulls,
+                              size_t i, sb_reactions *reactions)
 {
     const sb_lists *lists = &sim->work.pairs;
     const sb_group_plane *planes = sim->groups.plane + group->plane;

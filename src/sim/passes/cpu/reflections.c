@@ -95,8 +95,8 @@ SB_INLINE void reflect_self(sb_searcher *w, sb_f4 self)
 }
 
 /* Adds a hit by several reflections. Returns the force on the original by the pressure of the particle. */
-static sb_f4 several_reflections(const sb_sim *sim, const sb_searcher *w, uint32_t image, float fall, sb_f4 gradient,
-                                 sb_reflections *r)
+SB_APART sb_f4 several_reflections(const sb_sim *sim, const sb_searcher *w, uint32_t image, float fall, sb_f4 gradient,
+                                   sb_reflections *r)
 {
     const uint32_t path = w->images.path[image];
     if (fall != 0) r->push -= normal_part(&w->images.near, path, gradient * sb_splat(sb_hydrostatic(sim) * fall));
@@ -146,7 +146,7 @@ SB_INLINE void reflected_sums(const sb_sim *sim, sb_searcher *w, sb_f4 self_plac
 }
 
 /* The density that walls in motion push into the particle, by images. */
-static float moving_flux(const sb_sim *sim, const sb_searcher *w, sb_f4 self)
+SB_APART float moving_flux(const sb_sim *sim, const sb_searcher *w, sb_f4 self)
 {
     const sb_hits *h = &w->reflected;
     float flux = 0;

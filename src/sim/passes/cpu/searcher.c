@@ -27,7 +27,7 @@ SB_INLINE void gather_cell(sb_surroundings *s, const sb_record *record, uint32_t
 }
 
 /* Gathers the boundary particles in the 27 (2D: 9) cells around that of particle i, in a fixed order. */
-static void gather_walls(const sb_sim *sim, sb_searcher *w, size_t i, sb_record corner)
+SB_APART void gather_walls(const sb_sim *sim, sb_searcher *w, size_t i, sb_record corner)
 {
     const int layers = sim->constant.dimension == 2 ? 0 : 1;
     const uint64_t code = sb_cell_code(sim->state.position[i], sim->space.shift);

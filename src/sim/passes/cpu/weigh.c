@@ -3,7 +3,7 @@
 #include "sim/passes/cpu/soft_edges.h"
 
 /* Sets the weight of a hit, and notes how it changes. */
-static void set_weight(sb_images_around *images, const sb_weight_parts *all, sb_hits *hits, size_t k, bool direct)
+SB_APART void set_weight(sb_images_around *images, const sb_weight_parts *all, sb_hits *hits, size_t k, bool direct)
 {
     const float value = all->value < SB_WEIGHT_LEAST ? 0 : all->value;
     hits->root[k] = value;
@@ -24,7 +24,7 @@ static sb_weigher weigher_of(const sb_sim *sim, sb_images_around *images, sb_f4 
     return (sb_weigher){&images->near, self, SB_TRANSITION * spacing, 1e-3f * spacing, &images->standing};
 }
 
-static void stand(const sb_weigher *w)
+SB_APART void stand(const sb_weigher *w)
 {
     const sb_near *near = w->near;
     w->at->behind = 0;
@@ -90,7 +90,7 @@ SB_INLINE bool plain(const sb_weigher *w, size_t a, const sb_half_angle *other, 
 }
 
 /* Sets the weights of hits at noted edges, and notes how they change. */
-static void set_soft(sb_images_around *images, const sb_weigher *w, sb_soft_edges *soft, sb_hits *hits)
+SB_APART void set_soft(sb_images_around *images, const sb_weigher *w, sb_soft_edges *soft, sb_hits *hits)
 {
     sb_soft_edges_weigh(soft, w->transition);
     for (size_t n = 0; n < soft->count; n++) {
@@ -108,8 +108,8 @@ static void set_soft(sb_images_around *images, const sb_weigher *w, sb_soft_edge
 }
 
 /* Weight of a path by one reflection at facet a. apart: no facet hides it. */
-static void weigh_single(sb_images_around *images, const sb_weigher *w, uint32_t image, size_t a, sb_f4 source,
-                         bool apart, sb_hits *hits, size_t k)
+SB_APART void weigh_single(sb_images_around *images, const sb_weigher *w, uint32_t image, size_t a, sb_f4 source,
+                           bool apart, sb_hits *hits, size_t k)
 {
     const sb_f4 place = w->self - (sb_f4){hits->x[k], hits->y[k], hits->z[k], 0};
     bool meets = true;
@@ -120,8 +120,8 @@ static void weigh_single(sb_images_around *images, const sb_weigher *w, uint32_t
 }
 
 /* Weight of a path by several reflections. */
-static void weigh_several(sb_images_around *images, const sb_weigher *w, uint32_t path, sb_f4 source, sb_hits *hits,
-                          size_t k)
+SB_APART void weigh_several(sb_images_around *images, const sb_weigher *w, uint32_t path, sb_f4 source, sb_hits *hits,
+                            size_t k)
 {
     const sb_f4 place = w->self - (sb_f4){hits->x[k], hits->y[k], hits->z[k], 0};
     sb_weight_parts all;
