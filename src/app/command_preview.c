@@ -65,7 +65,7 @@ static sb_frame *make_frame(const sb_scene *scene, const sb_model *model)
     return frame;
 }
 
-/* Copies the tile to the next place of the sheet. */
+/* Copies the tile to the next place of the picture. */
 static void place_tile(preview *p)
 {
     const size_t row = p->tiles / COLUMNS, column = p->tiles % COLUMNS, width = (size_t)p->sheet.width;
