@@ -25,6 +25,7 @@ static const struct {
     {"time_step_factor",     {"0.22",       "0.075"}},
     {"time_step_max",        {"0",          "0"}},
     {"stress_correction",    {"1",          "0"}},
+    {"stress_memory",        {"20",         "0"}},
     {"artificial_viscosity", {"0.005",       "0.05"}},
     {"wall_friction",        {"0",          "0.02"}},
     {"walls",                {"images",     "particles"}},

@@ -143,6 +143,7 @@ typedef struct sb_numerics {
     double time_step_factor;     /* lambda_max (1/s) or C, by the rule */
     double time_step_max;        /* s; 0: no other limit */
     double stress_correction;    /* fraction of the deviatoric particle-packing stress that is removed; 0: off */
+    double stress_memory;        /* time after which stress counts as steady, in sqrt(D/g); 0: never */
     double artificial_viscosity; /* alpha of Monaghan's viscosity; 0: term is off */
     double wall_friction;        /* sigma; 0: term is off */
     sb_wall_form walls;

@@ -68,6 +68,9 @@ static const sb_key keys[] = {
     NUMBER(stress_correction, NULL, 0, 1, 0,
            "Fraction of the deviatoric particle-packing stress that is removed; 0 leaves the term "
            "out."),
+    NUMBER(stress_memory, NULL, 0, 1e9, 0,
+           "Time in sqrt(D/g) after which the stress of the particle packing counts as steady: the "
+           "correction leaves it. 0: never."),
     NUMBER(artificial_viscosity, NULL, 0, 10, 0,
            "Coefficient alpha of Monaghan's artificial viscosity; 0 leaves the term out."),
     NUMBER(wall_friction, NULL, 0, 10, 0,

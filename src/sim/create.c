@@ -43,6 +43,7 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
     return (sb_needs){
         .density_correction = n->density == SB_DENSITY_COMPLETED,
         .stress_correction = n->stress_correction > 0,
+        .steady_stress = n->stress_correction > 0 && n->stress_memory > 0 && scene->fluid.gravity > 0,
         .turbulence = n->turbulence == SB_TURBULENCE_SPS,
         .wall_shear = shear,
         .wall_drag = shear || n->wall_friction > 0,

@@ -5,6 +5,7 @@
 #include "sim/sea/strip.h"
 #include "sim/search/sort.h"
 #include "sim/step/ledger.h"
+#include "sim/terms/steady_stress.h"
 
 #include <math.h>
 
@@ -84,6 +85,7 @@ static sb_status let_in(sb_sim *sim, const entry *e, sb_error *error)
     state->velocity[i] = (sb_f4){(float)v[0], (float)v[1], (float)v[2], (float)e->given->pressure};
     state->id[i] = state->next_id++;
     if (state->density_correction) state->density_correction[i] = e->correction;
+    sb_steady_stress_clear(state, i);
     state->n++;
     const sb_f4 has = state->velocity[i];
     const double square = sb_ledger_work((sb_f4){0}, has, has, has);

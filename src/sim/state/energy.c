@@ -52,6 +52,11 @@ static uint64_t particle_hash(const sb_sim *sim, size_t i)
     hash = sb_hash(hash, &sim->state.velocity[i], sizeof sim->state.velocity[i]);
     if (sim->state.density_correction)
         hash = sb_hash(hash, &sim->state.density_correction[i], sizeof *sim->state.density_correction);
+    if (sim->state.steady_stress) {
+        hash = sb_hash(hash, &sim->state.steady_stress[i], sizeof *sim->state.steady_stress);
+        hash = sb_hash(hash, &sim->state.steady_stress_xx[i], sizeof *sim->state.steady_stress_xx);
+        hash = sb_hash(hash, &sim->state.steady_unknown[i], sizeof *sim->state.steady_unknown);
+    }
     return hash;
 }
 

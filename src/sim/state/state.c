@@ -11,6 +11,9 @@ const sb_state_field sb_state_fields[] = {
     {FIELD(velocity), .unit = "m/s", .ghosts = true, .needed = SB_ALWAYS},
     {FIELD(id), .unit = "", .needed = SB_ALWAYS},
     {FIELD(density_correction), .unit = "kg/m^3", .needed = SB_NEEDS(density_correction)},
+    {FIELD(steady_stress), .unit = "Pa m^6/kg^2", .needed = SB_NEEDS(steady_stress)},
+    {FIELD(steady_stress_xx), .unit = "Pa m^6/kg^2", .needed = SB_NEEDS(steady_stress)},
+    {FIELD(steady_unknown), .unit = "Pa m^6/kg^2", .needed = SB_NEEDS(steady_stress)},
     {FIELD(start_velocity), .unit = "m/s", .needed = SB_NEEDS(start_velocity)},
     {.name = NULL},
 };

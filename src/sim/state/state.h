@@ -31,6 +31,8 @@ typedef struct sb_state {
     sb_f4 *velocity;           /* last lane: pressure in Pa, with which the next solve starts */
     uint32_t *id;              /* a particle keeps its number, and no number is used twice */
     float *density_correction; /* c_i (sim/terms/density_correction.h); NULL: off; NAN: not known yet */
+    sb_f4 *steady_stress;      /* means over the last time (sim/terms/steady_stress.h): yy, xy, xz, yz; NULL: off */
+    float *steady_stress_xx, *steady_unknown; /* xx, and q */
     sb_f4 *start_velocity;     /* of t = 0; NULL after settling, and where all are 0 */
 
     sb_settle settle;

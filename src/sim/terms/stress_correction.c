@@ -7,6 +7,7 @@
 #include "sim/step/ledger.h"
 #include "sim/step/stages.h"
 #include "sim/terms/cell_mean.h"
+#include "sim/terms/steady_stress.h"
 
 enum { SUMS = 4, MEANS = 2 /* one after the other: see docs/decisions/0044 */ };
 
@@ -26,7 +27,7 @@ static double sum_changes(sb_sim *sim, const sb_group *group, double terms[SB_SU
     return -fast;
 }
 
-/* S_i = q_i <E>_i. Returns 0, or -1 without memory. */
+/* S_i = q_i <E>_i, without its steady part. Returns 0, or -1 without memory. */
 static int find_stress(sb_sim *sim)
 {
     sb_work *w = &sim->work;
@@ -39,10 +40,11 @@ static int find_stress(sb_sim *sim)
     const size_t n = sim->state.n;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
-        const float q = sim->state.velocity[i][3] / (w->density[i] * w->density[i]);
+        const float q = sb_stress_unknown(sim, i);
         w->stress_xx[i] *= q;
         w->stress[i] *= sb_splat(q);
     }
+    sb_steady_stress_take(sim);
     return 0;
 }
 

@@ -9,7 +9,8 @@
 
        dv_i/dt = -sum_j m (S_i + S_j) grad W_ij,   S_i = q_i <E>_i,   E_i = c (1 - M_i / t_i)
 
-   The remaining part is of second order: M (1 + E) = t (1 - e^2) with e = M/t - 1. <> is a mean over neighbours and
+   The remaining part is of second order: M (1 + E) = t (1 - e^2) with e = M/t - 1. S_i is taken without its steady part
+   (sim/terms/steady_stress.h). <> is a mean over neighbours and
    their images, and then that of sb_cell_mean, taken twice: the strain of waves extends over many spacings, and the
    force of what differs between adjacent particles would stir water at rest (docs/decisions/0044). E has no trace, so
    that five numbers represent it. */
@@ -38,6 +39,13 @@ static const float SB_STRESS_FILM_LEAST = 0.3f, SB_STRESS_FILM_WHOLE = 0.45f;
 typedef struct sb_stress_sums {
     float x, y, z, trace, weight;
 } sb_stress_sums;
+
+/* q_i = p_i / rho_i^2 of the last step, Pa m^6/kg^2. */
+static inline float sb_stress_unknown(const sb_sim *sim, size_t i)
+{
+    const float density = sim->work.density[i];
+    return sim->state.velocity[i][3] / (density * density);
+}
 
 static inline float sb_stress_between_0_and_1(float value)
 {
