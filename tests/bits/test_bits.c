@@ -24,9 +24,9 @@ static const struct {
     const char *name, *file, *resolution;
     uint64_t fused, plain;
 } scenes[] = {
-    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0x8b6fd72810cf0eae,
-     0xe75adf65d71ca058},
-    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0x797d7579f1494a70, 0x048c8aefea9fc790},
+    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0x620ebd044111b189,
+     0x52690d3339122ee0},
+    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0x42f2775b3eacc8cd, 0xbf5acf9258a7d614},
 };
 
 static const char settle[] = "numerics.settle_steps=20";

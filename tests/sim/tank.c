@@ -341,15 +341,13 @@ bool tank_skips(const sb_sim *sim, const char *text)
 
 static void swap_particles(sb_sim *sim, size_t a, size_t b)
 {
-    const sb_record position = sim->state.position[a];
-    const sb_f4 velocity = sim->state.velocity[a];
-    const uint32_t id = sim->state.id[a];
-    sim->state.position[a] = sim->state.position[b], sim->state.position[b] = position;
-    sim->state.velocity[a] = sim->state.velocity[b], sim->state.velocity[b] = velocity;
-    sim->state.id[a] = sim->state.id[b], sim->state.id[b] = id;
-    if (!sim->state.density_correction) return;
-    const float correction = sim->state.density_correction[a];
-    sim->state.density_correction[a] = sim->state.density_correction[b], sim->state.density_correction[b] = correction;
+    for (const sb_state_field *f = sb_state_fields; f->name; f++) {
+        char *entries = sb_state_entries(&sim->state, f), kept[sizeof(sb_f4)];
+        if (!entries) continue;
+        memcpy(kept, entries + a * f->size, f->size);
+        memcpy(entries + a * f->size, entries + b * f->size, f->size);
+        memcpy(entries + b * f->size, kept, f->size);
+    }
 }
 
 void tank_shuffle(sb_sim *sim, uint64_t seed)

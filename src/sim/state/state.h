@@ -33,7 +33,7 @@ typedef struct sb_state {
     float *density_correction; /* c_i (sim/terms/density_correction.h); NULL: off; NAN: not known yet */
     sb_f4 *steady_stress;      /* means over the last time (sim/terms/steady_stress.h): yy, xy, xz, yz; NULL: off */
     float *steady_stress_xx, *steady_unknown; /* xx, and q */
-    sb_f4 *start_velocity;     /* of t = 0; NULL after settling, and where all are 0 */
+    sb_f4 *start_velocity;                    /* of t = 0; NULL after settling, and where all are 0 */
 
     sb_settle settle;
     sb_body_impulse *impulse; /* per body */

@@ -81,6 +81,8 @@ static rest watch(const tank *t, double duration)
     return r;
 }
 
+static const double CALM = 0.007; /* sqrt(g D) */
+
 /* The patch is the middle of the floor, half as wide as the tank along each axis. In the first half of the run
    the particles leave the lattice on which they start, which moves the water. The motion then decays. Conjugate
    gradients need a smaller tolerance: with that of the other solvers their errors change sign from step to step, and
@@ -108,8 +110,10 @@ static void check(int dimensions, double spacing, sb_vec3 size, double depth, sb
     assert_near(r.force.z, -1, 0.005);
     assert_near(r.patch, 1, 0.02);
     assert_near(r.level, depth, 0.5 * spacing);
-    assert_true(speed[2] < 0.02 && speed[3] < 0.02);
-    assert_true(r.kinetic[3] <= 1.2 * r.kinetic[2]);
+    assert_true(speed[2] < 0.01 && speed[3] < 0.01);
+    /* Below CALM the two quarters differ by chance. */
+    const double calm = 0.5 * mass * pow(CALM * wave_speed, 2);
+    assert_true(r.kinetic[3] <= 1.2 * fmax(r.kinetic[2], calm));
 }
 
 static void a_flat_tank_rests(void **state)

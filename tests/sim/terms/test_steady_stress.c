@@ -39,7 +39,8 @@ static double correction(sb_sim *sim, double pressure)
     assert_int_equal(tank_prepare(sim, STEP), 0);
     assert_int_equal(sb_stage_stress_correction(sim, &error), SB_OK);
     double sum = 0;
-    for (size_t i = 0; i < sim->state.n; i++) sum += sqrt((double)sb_sum3(sim->state.velocity[i] * sim->state.velocity[i]));
+    for (size_t i = 0; i < sim->state.n; i++)
+        sum += sqrt((double)sb_sum3(sim->state.velocity[i] * sim->state.velocity[i]));
     return sum;
 }
 
