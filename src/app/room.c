@@ -85,6 +85,23 @@ static double map_bytes(const sb_scene *scene)
     return MAP_CELL_BYTES * ceil((map->x_max - map->x_min) / map->cell) * rows;
 }
 
+/* Of surface tension: per particle, and per node of the grid around the water, two nodes per support radius. */
+static double tension_bytes(const sb_scene *scene, const sb_model *model)
+{
+    enum { EACH_BYTES = 16, EACH_NODE_BYTES = 88, MARGIN = 10 };
+    if (!(scene->fluid.surface_tension > 0) || !model->fluid_position) return 0;
+    sb_vec3 low = model->fluid_position[0], high = low;
+    for (size_t i = 1; i < model->fluid_count; i++) {
+        low = sb_min(low, model->fluid_position[i]);
+        high = sb_max(high, model->fluid_position[i]);
+    }
+    const double width = 0.5 * scene->numerics.support * scene->resolution;
+    const sb_vec3 size = sb_sub(high, low);
+    const double across = scene->dimensions == 2 ? 1 : size.y / width + MARGIN;
+    return EACH_BYTES * (double)model->fluid_count +
+           EACH_NODE_BYTES * (size.x / width + MARGIN) * across * (size.z / width + MARGIN);
+}
+
 double sb_room_needed(const sb_scene *scene, const sb_model *model)
 {
     const double fluid = FLUID_BYTES + PAIR_BYTES * count_neighbours(scene) + FRAME_BYTES * count_frames(scene, model) +
@@ -92,7 +109,7 @@ double sb_room_needed(const sb_scene *scene, const sb_model *model)
     return PROGRAM_BYTES + picture_bytes(scene, model) + map_bytes(scene) +
            (double)model->fluid_count * (fluid + IMPULSE_BYTES * (double)model->body_count) +
            (double)model->wall_count * WALL_BYTES + sb_room_ghosts(scene, model) * GHOST_BYTES +
-           (sb_scene_nested(scene) ? sb_grid_bytes(scene) : 0);
+           (sb_scene_nested(scene) ? sb_grid_bytes(scene) : 0) + tension_bytes(scene, model);
 }
 
 sb_status sb_room_check(const sb_scene *scene, const sb_model *model, sb_error *error)

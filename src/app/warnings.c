@@ -1,5 +1,6 @@
 #include "app/warnings.h"
 
+#include "app/check_tension.h"
 #include "base/memory.h"
 #include "physics/dispersion.h"
 #include "physics/reflection.h"
@@ -72,6 +73,7 @@ void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *con
         visit(context, text);
     }
     warn_of_reflections(scene, visit, context);
+    sb_tension_warnings(scene, visit, context);
     if (scene->measure.interval > scene->duration) {
         snprintf(text, sizeof text,
                  "measure.interval: %g s is longer than the run of %g s: forces.csv gets no row, and the other tables "

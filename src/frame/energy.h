@@ -26,6 +26,7 @@ typedef struct sb_ledger {
     double stress;      /* deviatoric stress correction */
     double sea;         /* water that crosses sides of kind sea, and what holds their water to the given sea */
     double sponge;      /* what sponges take */
+    double tension;     /* surface tension: minus the change of the surface's energy, to the order of the method */
 } sb_ledger;
 
 /* What has crossed the sides of kind sea since t = 0. All members are of eight bytes. */

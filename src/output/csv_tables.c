@@ -116,7 +116,7 @@ static void write_energies(FILE *stream, const sb_scene *scene, const sb_model *
     const sb_ledger *ledger = &row->ledger;
     const double changes[] = {ledger->bodies,  ledger->viscosity,   ledger->friction, ledger->pressure,
                               ledger->contact, ledger->integration, ledger->left,     row->momentum_imbalance,
-                              ledger->stress,  ledger->sea,         ledger->sponge};
+                              ledger->stress,  ledger->sea,         ledger->sponge,   ledger->tension};
     begin(stream, row->time, NULL);
     put(stream, row->kinetic);
     put_fine(stream, row->potential);
@@ -240,12 +240,13 @@ const sb_csv_table sb_csv_tables[] = {
     {.name = "energy",
      .header = "time_s,kinetic_J,potential_J,mass_kg,momentum_x_kg_m_s,momentum_y_kg_m_s,"
                "momentum_z_kg_m_s,bodies_J,viscosity_J,wall_friction_J,pressure_solve_J,contact_J,"
-               "time_integration_J,left_domain_J,momentum_imbalance,packing_stress_J,sea_J,sponge_J",
+               "time_integration_J,left_domain_J,momentum_imbalance,packing_stress_J,sea_J,sponge_J,"
+               "surface_tension_J",
      .flat_header = "time_s,kinetic_J_per_m,potential_J_per_m,mass_kg_per_m,momentum_x_kg_m_s_per_m,"
                     "momentum_y_kg_m_s_per_m,momentum_z_kg_m_s_per_m,bodies_J_per_m,viscosity_J_per_m,"
                     "wall_friction_J_per_m,pressure_solve_J_per_m,contact_J_per_m,"
                     "time_integration_J_per_m,left_domain_J_per_m,momentum_imbalance,packing_stress_J_per_m,sea_J_per_"
-                    "m,sponge_J_per_m",
+                    "m,sponge_J_per_m,surface_tension_J_per_m",
      .wanted = NULL,
      .count = count_energies,
      .write = write_energies},

@@ -66,6 +66,7 @@ void sb_summary_put_work(sb_json *json, const sb_ledger *work)
     sb_json_number(json, "packing_stress_J", work->stress);
     sb_json_number(json, "sea_J", work->sea);
     sb_json_number(json, "sponge_J", work->sponge);
+    sb_json_number(json, "surface_tension_J", work->tension);
     sb_json_close(json);
 }
 

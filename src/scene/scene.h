@@ -21,9 +21,10 @@ typedef enum sb_side_kind { SB_SIDE_WALL, SB_SIDE_OPEN, SB_SIDE_PERIODIC, SB_SID
 enum { SB_X_MIN, SB_X_MAX, SB_Y_MIN, SB_Y_MAX, SB_Z_MIN, SB_Z_MAX, SB_SIDES };
 
 typedef struct sb_fluid_properties {
-    double density;   /* kg/m^3, rest density */
-    double gravity;   /* m/s^2, magnitude */
-    double viscosity; /* m^2/s, physical kinematic viscosity; 0: term is off */
+    double density;         /* kg/m^3, rest density */
+    double gravity;         /* m/s^2, magnitude */
+    double viscosity;       /* m^2/s, physical kinematic viscosity; 0: term is off */
+    double surface_tension; /* N/m; 0: term is off */
 } sb_fluid_properties;
 
 typedef struct sb_domain {

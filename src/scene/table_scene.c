@@ -103,6 +103,11 @@ static const sb_key fluid_keys[] = {
     {.name = "viscosity", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_fluid_properties, viscosity),
      .unit = "m2/s", SB_KEY_NOT_NEGATIVE, .fallback = "1e-6",
      .doc = "Kinematic viscosity of the fluid; 0 leaves the term out."},
+    {.name = "surface_tension", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_fluid_properties, surface_tension),
+     .unit = "N/m", SB_KEY_NOT_NEGATIVE, .fallback = "0",
+     .doc = "Surface tension of the fluid against air, 0.0728 for clean water at 20 degrees C; 0 leaves the term out. "
+            "It acts on drops and waves of millimetres and limits the time step; `check` prints Bond and Weber "
+            "numbers. Not with periodic sides."},
 };
 /* clang-format on */
 
@@ -238,12 +243,31 @@ static sb_status finish_nested(sb_reader *reader, const sb_yaml *map, sb_scene *
     return check_cover(reader, map, scene);
 }
 
+/* Surface tension needs particles, and does not know water beyond periodic sides. */
+static sb_status check_tension(sb_reader *reader, const sb_yaml *map, const sb_scene *scene)
+{
+    if (!(scene->fluid.surface_tension > 0)) return SB_OK;
+    const sb_yaml *fluid = sb_yaml_child(map, "fluid");
+    if (sb_scene_grid_alone(scene))
+        return sb_reader_fail(reader, fluid, "surface_tension",
+                              "%g N/m, but a scene with offshore alone has no particles on which it acts, expected 0",
+                              scene->fluid.surface_tension);
+    if (sb_scene_repeats(scene, 0) || sb_scene_repeats(scene, 1))
+        return sb_reader_fail(
+            reader, fluid, "surface_tension",
+            "%g N/m, but domain.sides has periodic sides, at which water would end as at air, expected "
+            "wall, open or sea, or 0",
+            scene->fluid.surface_tension);
+    return SB_OK;
+}
+
 static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_scene *scene = item;
     if (scene->control.enabled) scene->stream.enabled = true; /* it has the run's id and sends the replies */
     sb_status status = check_sea(reader, map, scene);
     if (status == SB_OK) status = finish_nested(reader, map, scene);
+    if (status == SB_OK) status = check_tension(reader, map, scene);
     if (status != SB_OK || sb_scene_grid_alone(scene)) return status;
     sb_vec3 size = sb_sub(scene->domain.max, scene->domain.min);
     double least = size.x < size.z ? size.x : size.z;

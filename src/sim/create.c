@@ -9,6 +9,7 @@
 #include "sim/search/sort.h"
 #include "sim/step/stages.h"
 #include "sim/terms/density_correction.h"
+#include "sim/terms/surface_tension.h"
 #include "sim/walls/mirrors.h"
 #include "sim/walls/pushes.h"
 #include "sim/walls/walls.h"
@@ -50,6 +51,7 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
         .images = n->walls == SB_WALLS_IMAGES,
         .sea = sb_scene_sea_side(scene, 0) || sb_scene_sea_side(scene, 1) || sb_scene_sea_side(scene, 2) ||
                sb_scene_sea_side(scene, 3),
+        .surface_tension = scene->fluid.surface_tension > 0,
         .sponge = scene->sponge_count > 0,
         .settling = settling,
         .start_velocity = settling && starts_in_motion(model),
@@ -200,7 +202,9 @@ size_t sb_sim_bytes(const sb_sim *sim)
 {
     enum { WALL_BYTES = sizeof(sb_record) + sizeof(uint32_t) + sizeof(sb_f4) };
     size_t bytes = sb_state_bytes(&sim->state) + sim->work.bytes + sb_cells_bytes(&sim->cells) +
-                   sim->work.cell_sum_capacity * sizeof *sim->work.cell_sum + sb_cells_bytes(&sim->ghosts.cells);
+                   sim->work.cell_sum_capacity * sizeof *sim->work.cell_sum +
+                   sim->work.node_capacity * SB_TENSION_VALUES * sizeof *sim->work.node +
+                   sb_cells_bytes(&sim->ghosts.cells);
     bytes += sim->ghosts.of_capacity * 4 + (sim->ghosts.words_capacity + sim->ghosts.other_capacity) * 8;
     bytes += sim->work.pairs.capacity * sizeof *sim->work.pairs.four + sim->work.wall_pairs.capacity * 8;
     bytes += sb_strip_bytes(sim);

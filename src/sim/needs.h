@@ -11,7 +11,8 @@ typedef struct sb_needs {
     bool wall_shear, wall_drag; /* drag: shear or friction */
     bool images;                /* walls reflect water */
     bool sea;                   /* water of a given sea comes in through a side */
-    bool sponge;                /* zones slow water down */
+    bool surface_tension;
+    bool sponge; /* zones slow water down */
     bool settling;
     bool start_velocity;     /* water in motion at t = 0, after settling */
     bool direction, product; /* fields of the pressure solver */

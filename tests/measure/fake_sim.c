@@ -67,7 +67,7 @@ void fake_world_make(fake_world *world, int dimensions, double spacing, sb_vec3 
     memset(world, 0, sizeof *world);
     world->scene.dimensions = dimensions;
     world->scene.resolution = spacing;
-    world->scene.fluid = (sb_fluid_properties){1000, 9.81, 0};
+    world->scene.fluid = (sb_fluid_properties){.density = 1000, .gravity = 9.81};
     world->scene.numerics.kernel = sb_kernel_find("cubic");
     assert(world->scene.numerics.kernel);
     world->scene.numerics.support = 2;

@@ -68,7 +68,8 @@ static void headers_are_exact(void **state)
     expect("energy.csv", "time_s,kinetic_J,potential_J,mass_kg,momentum_x_kg_m_s,"
                          "momentum_y_kg_m_s,momentum_z_kg_m_s,bodies_J,viscosity_J,"
                          "wall_friction_J,pressure_solve_J,contact_J,time_integration_J,"
-                         "left_domain_J,momentum_imbalance,packing_stress_J,sea_J,sponge_J\n");
+                         "left_domain_J,momentum_imbalance,packing_stress_J,sea_J,sponge_J,"
+                         "surface_tension_J\n");
     assert_int_equal(sb_csv_close(csv, NULL), SB_OK);
     scene = make_scene(2, false);
     unlink(in_folder("runup.csv"));
@@ -95,7 +96,7 @@ static void rows_are_flushed_at_once(void **state)
     const sb_flow_record flows[] = {{0, 0.1, 12.5, 3}};
     const sb_runup_record runups[] = {{0, 0.1, {1, 2, 3}, 4, 0.5}};
     const sb_energy_record energies[] = {
-        {0.10123, 5, 6.00000000001, 7, {8, 9, 10}, {11, -12, -13, -14, -15, 16, -17, 18, 19, 20}, 1e-7}};
+        {0.10123, 5, 6.00000000001, 7, {8, 9, 10}, {11, -12, -13, -14, -15, 16, -17, 18, 19, 20, -21}, 1e-7}};
     const sb_reflection_record splits[] = {{0, 2, 5, 10, 0.5, 3, 0.25, 0.125, 0.01, 0.75},
                                            {0, 3, 5, 10, 0.2, 1, nan, nan, nan, 0}};
     sb_water_record waters[] = {{0, 0.1, 0, 0.25, 1.5, -2, {{0, 0, 0}}}, {0, 0.1, 0, 0.75, nan, -2, {{0, 0, 0}}}};
@@ -128,7 +129,7 @@ static void rows_are_flushed_at_once(void **state)
     sb_free(text);
     text = text_of("energy.csv");
     assert_string_equal(strchr(text, '\n') + 1,
-                        "0.10123,5,6.00000000001,7,8,9,10,11,-12,-13,-14,-15,16,-17,1e-07,18,19,20\n");
+                        "0.10123,5,6.00000000001,7,8,9,10,11,-12,-13,-14,-15,16,-17,1e-07,18,19,20,-21\n");
     sb_free(text);
     assert_int_equal(sb_csv_close(csv, NULL), SB_OK);
 }

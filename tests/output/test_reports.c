@@ -68,6 +68,7 @@ static void summary_has_the_documented_keys(void **state)
                                 "packing_stress_J",
                                 "sea_J",
                                 "sponge_J",
+                                "surface_tension_J",
                                 "processor_seconds",
                                 "wall_setup_s",
                                 "wall_settling_s"};

@@ -41,6 +41,8 @@ void sb_report_skipped(sb_sim *sim)
     if (!sim->needs.density_correction)
         skip(sim, &s, "density correction: off (density: summed), no memory for it", 0,
              sizeof *sim->state.density_correction);
+    if (!sim->needs.surface_tension)
+        skip(sim, &s, "surface tension: the coefficient is 0, no grid of nodes", 0, sb_work_cost(&sim->needs, "pull"));
     if (!(n->wall_friction > 0)) skip(sim, &s, "wall friction: the coefficient is 0", 0, 0);
     if (!sim->needs.wall_shear)
         skip(sim, &s, n->wall_shear == SB_SHEAR_NONE ? "wall shear: none" : "wall shear: the fluid has no viscosity", 0,

@@ -20,11 +20,21 @@ static double slowest(const sb_scene *scene, const sb_model *model)
     return acos(-1) * sqrt(scene->fluid.gravity * depth) / fmax(x, y);
 }
 
+/* Speed that the pressure of surface tension gives to water that is a ball (2D: a disc): sqrt(2 sigma/(rho R)). */
+static double capillary_speed(const sb_scene *scene, const sb_model *model)
+{
+    const double pi = acos(-1), dr = scene->resolution,
+                 volume = (double)model->fluid_count * pow(dr, scene->dimensions);
+    const double radius = scene->dimensions == 2 ? sqrt(volume / pi) : cbrt(0.75 * volume / pi);
+    return sqrt(2 * scene->fluid.surface_tension / (scene->fluid.density * fmax(radius, dr)));
+}
+
 sb_constants sb_constants_of(const sb_scene *scene, const sb_model *model)
 {
     double dr = scene->resolution, g = scene->fluid.gravity;
     double mass = scene->fluid.density * (scene->dimensions == 2 ? dr * dr : dr * dr * dr);
     double wave_speed = g > 0 ? sb_model_wave_speed(scene, model) : 1;
+    if (scene->fluid.surface_tension > 0) wave_speed = fmax(g > 0 ? wave_speed : 0, capillary_speed(scene, model));
     double sound = scene->numerics.sound_speed > 0 ? scene->numerics.sound_speed : 10 * wave_speed;
     return (sb_constants){
         .dimension = scene->dimensions,
@@ -37,6 +47,7 @@ sb_constants sb_constants_of(const sb_scene *scene, const sb_model *model)
         .slowest = (float)slowest(scene, model),
         .sound_speed = (float)sound,
         .viscosity = (float)scene->fluid.viscosity,
+        .surface_tension = (float)scene->fluid.surface_tension,
         .full_diagonal = (float)sb_lattice_diagonal(scene, mass),
         .spectrum = sb_lattice_spectrum(scene),
         .bulk_deficit = (float)(scene->fluid.density * (1 - sb_lattice_density(scene))),

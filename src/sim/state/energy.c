@@ -69,9 +69,10 @@ uint64_t sb_sim_hash(const sb_sim *sim)
     sim->exchange->count(sim, counts, 2);
     uint64_t hash = sb_hash(sb_hash(0, &counts[0], sizeof *counts), &counts[1], sizeof *counts);
     hash = sb_hash(hash, sim->state.impulse, sim->model->body_count * sizeof *sim->state.impulse);
-    hash = sb_hash(hash, &sim->state.ledger, offsetof(sb_ledger, sea)); /* the rest belongs to strips and sponges */
+    hash = sb_hash(hash, &sim->state.ledger, offsetof(sb_ledger, sea)); /* the rest: by need */
     hash = sb_strip_hash(sim, hash);
     if (sim->needs.sponge) hash = sb_hash(hash, &sim->state.ledger.sponge, sizeof sim->state.ledger.sponge);
+    if (sim->needs.surface_tension) hash = sb_hash(hash, &sim->state.ledger.tension, sizeof sim->state.ledger.tension);
     hash = sb_absorbers_hash(sim, hash);
     hash = sb_hash(hash, &sim->state.time, sizeof sim->state.time);
     return sb_hash(hash, &sim->state.step, sizeof sim->state.step);

@@ -37,6 +37,7 @@ const sb_work_view sb_work_views[] = {
     {WORK(corrected), FROM(CORRECTED, CORRECTED), .unit = "m/s", .needed = SB_NEEDS(stress_correction)},
     {WORK(eddy), FROM(TURBULENCE, FORCES), .unit = "m^2/s", .ghosts = true, .needed = SB_NEEDS(turbulence)},
     {WORK(wall_drag), FROM(FORCES, IMPULSE), .unit = "m/s^2", .needed = SB_NEEDS(wall_drag)},
+    {WORK(pull), FROM(FORCES, MOVE), .unit = "m/s^2", .needed = SB_NEEDS(surface_tension)},
     {WORK(predicted), FROM(FORCES, MOVE), .unit = "m/s", .ghosts = true, .needed = SB_ALWAYS},
     {WORK(source), FROM(SOURCE, PRESSURE), .unit = "kg/m^3", .needed = SB_ALWAYS},
     {WORK(unknown), FROM(PRESSURE, AFTER), .unit = "Pa m^6/kg^2", .needed = SB_ALWAYS},
@@ -143,9 +144,12 @@ void sb_work_destroy(sb_work *work)
     for (const sb_work_view *v = sb_work_views; v->name; v++) set_pointer(work, v, NULL);
     sb_free(work->block);
     sb_free(work->cell_sum);
+    sb_free(work->node);
     work->block = NULL;
     work->cell_sum = NULL;
     work->cell_sum_capacity = 0;
+    work->node = NULL;
+    work->node_capacity = 0;
     work->bytes = 0;
 }
 

@@ -80,10 +80,13 @@ typedef struct sb_work {
     sb_f4 *strain, *stress;
     sb_cell_sum *cell_sum; /* by cell, then by cell of the ghosts (sim/terms/cell_mean.h) */
     size_t cell_sum_capacity;
+    double *node; /* SB_TENSION_VALUES per node of a grid around the water; NULL without surface tension */
+    size_t node_capacity;
     sb_f4 *corrected; /* m/s, velocity after the stress correction */
 
     float *eddy;      /* m^2/s, nu_t at the step's start; NULL without a turbulence model */
     sb_f4 *wall_drag; /* m/s^2, by friction and shear of walls, for particles beside walls; NULL without drag */
+    sb_f4 *pull;      /* m/s^2, by surface tension (sim/terms/surface_tension.h); NULL without it */
     sb_f4 *predicted; /* m/s, v*: the velocity before the pressure */
 
     float *source;       /* b_i, kg/m^3 */
@@ -100,6 +103,7 @@ typedef struct sb_work {
     double *stress_force; /* the same by the stress correction, with images; else 0 */
     sb_ledger_sums sums;
     double sponge_work;  /* per unit of mass, by sponges */
+    double tension_work; /* per unit of mass, by surface tension */
     sb_vec3 sponge_gain; /* kg m/s, momentum by sponges */
     sb_vec3 stress_gain; /* kg m/s, momentum from the stress correction: only round-off */
     sb_solve solve;

@@ -43,7 +43,7 @@ void sb_ledger_close(sb_sim *sim)
 {
     sb_ledger_sums s = sim->work.sums;
     const sb_vec3 held = book_held(sim, &s);
-    s.forces -= sim->work.sponge_work;
+    s.forces -= sim->work.sponge_work + sim->work.tension_work;
     const body_sums bodies = sum_bodies(sim);
     const double m = (double)sim->constant.mass, g = (double)sim->constant.gravity;
     const double dt = (double)(float)sim->state.time_step; /* in the precision that advanced the velocities */
@@ -57,6 +57,7 @@ void sb_ledger_close(sb_sim *sim)
     ledger->pressure += m * (s.solve - s.contact + s.contact_bodies) + dt * bodies.pressure;
     ledger->contact += m * (s.contact - s.contact_bodies);
     ledger->sponge += m * sim->work.sponge_work;
+    ledger->tension += m * sim->work.tension_work;
     ledger->integration += m * g * (s.rise * sim->space.quantum - dt * s.fall);
     const double weight = m * g * (double)sim->work.everywhere;
     const sb_vec3 gain = sb_scale(sb_vec(s.gain[0], s.gain[1], s.gain[2]), m);

@@ -7,6 +7,7 @@
 #include "sim/terms/density_correction.h"
 #include "sim/terms/sponge.h"
 #include "sim/terms/stress_correction.h"
+#include "sim/terms/surface_tension.h"
 #include "sim/terms/turbulence.h"
 #include "sim/walls/pushes.h"
 
@@ -40,6 +41,8 @@ static const stage stages[] = {
     {"turbulence", SB_PHASE_TURBULENCE, sb_stage_turbulence, SB_NEEDS(turbulence)},
     /* v* = v + dt (g + viscosity + friction) */
     {"forces", SB_PHASE_FORCES, sb_stage_forces, SB_ALWAYS},
+    /* v* += dt (surface tension) */
+    {"surface_tension", SB_PHASES, sb_stage_surface_tension, SB_NEEDS(surface_tension)},
     /* slows water down */
     {"sponge", SB_PHASES, sb_stage_sponge, SB_NEEDS(sponge)},
     /* their velocity and pressure */
@@ -56,6 +59,8 @@ static const stage stages[] = {
     {"book", SB_PHASES, sb_stage_book, SB_NEEDS(sea)},
     /* what sponges have taken */
     {"drained", SB_PHASES, sb_stage_drained, SB_NEEDS(sponge)},
+    /* work of surface tension */
+    {"surface_work", SB_PHASES, sb_stage_surface_work, SB_NEEDS(surface_tension)},
     /* x at t + dt */
     {"move", SB_PHASE_MOVE, sb_stage_move, SB_ALWAYS},
 };

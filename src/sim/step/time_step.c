@@ -45,6 +45,14 @@ static double viscous_step(const sb_numerics *n, const sb_constants *c)
     return nu > 0 ? VISCOUS_STEP * spacing * spacing / nu : (double)INFINITY;
 }
 
+/* In this step the shortest capillary wave, two spacings long, does not pass half a spacing [Brackbill, Kothe, Zemach
+   1992], with air that has no mass. */
+static double capillary_step(const sb_constants *c)
+{
+    const double dr = (double)c->spacing;
+    return sqrt((double)c->rest_density * dr * dr * dr / (4 * M_PI * (double)c->surface_tension));
+}
+
 /* The time step: the smallest of the limits by waves (times `stretched`), speed, viscosity and the scene. */
 static double longest_step(const sb_numerics *n, const sb_constants *c, double speed, double stretched)
 {
@@ -52,6 +60,7 @@ static double longest_step(const sb_numerics *n, const sb_constants *c, double s
     double bound = n->time_step_rule == SB_TIME_STEP_PAPER ? n->time_step_factor * h / g
                                                            : n->time_step_factor * h / (double)c->wave_speed;
     double dt = fmin(fmin(cfl_step(n, c, speed), bound * stretched), viscous_step(n, c));
+    if (c->surface_tension > 0) dt = fmin(dt, capillary_step(c));
     return n->time_step_max > 0 ? fmin(dt, n->time_step_max) : dt;
 }
 

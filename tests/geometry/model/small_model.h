@@ -33,7 +33,7 @@ static int set_up(void **state)
     scene.dimensions = 3;
     scene.resolution = 0.5;
     scene.duration = 10;
-    scene.fluid = (sb_fluid_properties){1000, 9.81, 0};
+    scene.fluid = (sb_fluid_properties){.density = 1000, .gravity = 9.81};
     scene.domain.min = sb_vec(0, 0, 0);
     scene.domain.max = sb_vec(10, 6, 5);
     scene.domain.side[SB_Z_MAX] = SB_SIDE_OPEN;

@@ -18,7 +18,7 @@ static void set_up(double width)
     memset(bodies, 0, sizeof bodies);
     scene.dimensions = 3;
     scene.resolution = 0.5;
-    scene.fluid = (sb_fluid_properties){1000, 9.81, 0};
+    scene.fluid = (sb_fluid_properties){.density = 1000, .gravity = 9.81};
     scene.domain.max = sb_vec(20, width, 8);
     scene.domain.side[SB_Y_MIN] = scene.domain.side[SB_Y_MAX] = SB_SIDE_PERIODIC;
     scene.domain.side[SB_Z_MAX] = SB_SIDE_OPEN;

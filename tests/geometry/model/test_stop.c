@@ -25,7 +25,7 @@ static sb_fluid_box box = {.min = {7, 5, 3}, .max = {8, 6, 4}, .level = 4};
 static sb_scene make_scene(double resolution)
 {
     sb_scene scene = {.dimensions = 3, .resolution = resolution, .body_count = 2, .box_count = 1};
-    scene.fluid = (sb_fluid_properties){1000, 9.81, 0};
+    scene.fluid = (sb_fluid_properties){.density = 1000, .gravity = 9.81};
     scene.domain.max = sb_vec(10, 8, 5);
     scene.domain.side[SB_Z_MAX] = SB_SIDE_OPEN;
     scene.sea = (sb_sea){true, 2, {1, 1, 1}};
