@@ -44,6 +44,8 @@ static void check_and_run_give_the_same_warnings(void **state)
         {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
               "bodies: [{name: far, shape: box, min: [90, -1, 0], max: [95, 1, 2]}]\n",
          "body \"far\" has no surface that water could reach", "5 x 2 x 2 m"},
+        {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\nfoam: {enabled: true}\n",
+         "foam.enabled: true, but the run draws no pictures", "expected render.interval or output.particle_interval"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         write_text("doubtful.yaml", cases[k].scene);
