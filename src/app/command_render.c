@@ -6,6 +6,7 @@
 #include "app/render_log.h"
 #include "app/run_files.h"
 #include "base/nearest.h"
+#include "output/foam_files.h"
 #include "output/particle_format.h"
 #include "output/video.h"
 
@@ -70,6 +71,7 @@ static sb_status draw_all(const char *run, const sb_particle_format *format, con
         sb_frame *frame = NULL;
         status = sb_path_join(path, run, list->entries[i].file, error);
         if (status == SB_OK) status = format->read(path, &frame, error);
+        if (status == SB_OK && pictures->scene->foam.enabled) status = sb_foam_files_read(run, i + 1, frame, error);
         if (status == SB_OK) carry(frame, pictures->scene->output.particle_interval);
         if (status == SB_OK) status = work.handle(pictures, frame, error);
         sb_frame_release(frame);

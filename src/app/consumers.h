@@ -20,6 +20,7 @@
 typedef struct sb_recorder {
     const char *directory;
     const sb_particle_format *format;
+    bool foam; /* files of foam are written beside the particle files */
     sb_particle_list list;
     uint64_t count, synced; /* files written; of these, synced to disk */
 } sb_recorder;

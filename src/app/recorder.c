@@ -1,5 +1,6 @@
 /* Writes frames as particle files. */
 #include "app/consumers.h"
+#include "output/foam_files.h"
 
 #include <errno.h>
 #include <string.h>
@@ -38,6 +39,8 @@ static sb_status open_recorder(void *state, sb_error *error)
     char folder[SB_PATH_MAX];
     sb_status status = sb_make_folder(folder, recorder->directory, SB_PARTICLE_FOLDER, error);
     if (status == SB_OK) status = start_list(recorder, error);
+    if (status == SB_OK && recorder->foam)
+        status = sb_foam_files_open(recorder->directory, &recorder->list, recorder->count, error);
     return status == SB_OK ? sb_remove_numbered(folder, recorder->format->ending, recorder->count, error) : status;
 }
 
@@ -47,6 +50,7 @@ static sb_status enter(sb_recorder *recorder, double time, const char *name, sb_
     sb_status status = sb_particle_list_add(&recorder->list, time, name, strlen(name), error);
     if (status != SB_OK) return status;
     status = write_list(recorder, error);
+    if (status == SB_OK && recorder->foam) status = sb_foam_files_list(recorder->directory, &recorder->list, error);
     recorder->list.count -= status != SB_OK;
     return status;
 }
@@ -58,6 +62,7 @@ static sb_status record(void *state, const sb_frame *frame, sb_error *error)
     const uint64_t number = recorder->count + 1;
     sb_particle_format_file(recorder->format, number, name);
     sb_status status = sb_path_join(path, recorder->directory, name, error);
+    if (status == SB_OK && recorder->foam) status = sb_foam_files_write(recorder->directory, frame, number, error);
     if (status == SB_OK) status = recorder->format->write(path, frame, number, error);
     if (status != SB_OK) return status;
     status = enter(recorder, frame->status.time, name, error);
@@ -66,14 +71,24 @@ static sb_status record(void *state, const sb_frame *frame, sb_error *error)
     return status;
 }
 
+/* Syncs the files of a number, or, of number 0, the folders. */
+static sb_status sync_one(const sb_recorder *recorder, uint64_t number, sb_gone *gone, sb_error *error)
+{
+    char name[SB_PARTICLE_NAME_MAX] = SB_PARTICLE_FOLDER, foam[SB_FOAM_NAME_MAX] = SB_FOAM_FOLDER;
+    if (number > 0) {
+        sb_particle_format_file(recorder->format, number, name);
+        sb_foam_file(number, foam);
+    }
+    sb_status status = sb_written_sync(recorder->directory, name, gone, error);
+    if (status == SB_OK && recorder->foam) status = sb_written_sync(recorder->directory, foam, gone, error);
+    return status;
+}
+
 sb_status sb_recorder_sync(sb_recorder *recorder, sb_gone *gone, sb_error *error)
 {
-    char name[SB_PARTICLE_NAME_MAX] = SB_PARTICLE_FOLDER;
     const uint64_t first = recorder->synced;
     for (uint64_t number = first; number <= recorder->count && recorder->count > first; number++) {
-        if (number > first)
-            sb_particle_format_file(recorder->format, number, name); /* the first iteration syncs the folder */
-        sb_status status = sb_written_sync(recorder->directory, name, gone, error);
+        sb_status status = sync_one(recorder, number > first ? number : 0, gone, error);
         if (status != SB_OK) return status;
     }
     recorder->synced = recorder->count;

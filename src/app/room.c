@@ -77,6 +77,15 @@ static double picture_bytes(const sb_scene *scene, const sb_model *model)
     return GRAPHICS_BYTES + PIXEL_BYTES * pixels + NODE_BYTES * count_nodes(scene, model) * (still > 0 ? 2 : 1);
 }
 
+/* Foam: arrays that grow by doubling, and the frames. */
+static double foam_bytes(const sb_scene *scene, const sb_model *model)
+{
+    enum { PARTICLE = 48, WORDS = 16, MARK = 28, FRAME = 33, FLUID = 20 };
+    if (!scene->foam.enabled) return 0;
+    return (double)scene->foam.most * (2 * (PARTICLE + WORDS + MARK) + FRAME * count_frames(scene, model)) +
+           FLUID * (double)model->fluid_count;
+}
+
 static double map_bytes(const sb_scene *scene)
 {
     const sb_map *map = &scene->measure.map;
@@ -106,7 +115,7 @@ double sb_room_needed(const sb_scene *scene, const sb_model *model)
 {
     const double fluid = FLUID_BYTES + PAIR_BYTES * count_neighbours(scene) + FRAME_BYTES * count_frames(scene, model) +
                          (scene->stream.enabled ? STREAM_BYTES : 0);
-    return PROGRAM_BYTES + picture_bytes(scene, model) + map_bytes(scene) +
+    return PROGRAM_BYTES + picture_bytes(scene, model) + map_bytes(scene) + foam_bytes(scene, model) +
            (double)model->fluid_count * (fluid + IMPULSE_BYTES * (double)model->body_count) +
            (double)model->wall_count * WALL_BYTES + sb_room_ghosts(scene, model) * GHOST_BYTES +
            (sb_scene_nested(scene) ? sb_grid_bytes(scene) : 0) + tension_bytes(scene, model);

@@ -3,6 +3,7 @@
 #include "app/checkpoint_names.h"
 #include "base/memory.h"
 #include "output/csv_tables.h"
+#include "output/foam_files.h"
 #include "output/maps.h"
 #include "output/particle_format.h"
 #include "output/vti.h"
@@ -18,7 +19,7 @@
 
 #define PNG "\x89PNG"
 
-typedef enum place { CHECKPOINTS, PARTICLES, GRIDS, MAPS, PLOTS, REQUESTED, CAMERA, STILLS, TOP } place;
+typedef enum place { CHECKPOINTS, PARTICLES, FOAM, GRIDS, MAPS, PLOTS, REQUESTED, CAMERA, STILLS, TOP } place;
 
 /* Whether the folder has a folder of pictures for each camera. */
 static bool by_camera(place in)
@@ -28,6 +29,7 @@ static bool by_camera(place in)
 
 static const char *const folders[] = {[CHECKPOINTS] = "checkpoints",
                                       [PARTICLES] = SB_PARTICLE_FOLDER,
+                                      [FOAM] = SB_FOAM_FOLDER,
                                       [GRIDS] = SB_VTI_FOLDER,
                                       [MAPS] = "maps",
                                       [PLOTS] = "plots",
@@ -58,6 +60,7 @@ static const struct {
     {TOP, NULL, sb_csv_name, ".csv", "time_s,", GROWS},
     {TOP, "waves", NULL, ".csv", SB_WAVE_TABLE_START, 0},
     {TOP, SB_VTI_LIST, NULL, ".pvd", "<?xml", 0},
+    {TOP, SB_FOAM_LIST, NULL, ".pvd", "<?xml", 0},
     {CHECKPOINTS, SB_CHECKPOINT_SETTLING, NULL, SB_CHECKPOINT_SUFFIX, SB_CHECKPOINT_KIND, 0},
     {MAPS, NULL, sb_map_name, ".asc", "ncols", 0},
     {MAPS, NULL, sb_map_name, ".png", PNG, 0},
@@ -205,6 +208,7 @@ static kind kind_of_known(place in, const char *name, size_t length)
 {
     if (in == CHECKPOINTS && sb_is_numbered(name, SB_CHECKPOINT_SUFFIX, 0))
         return (kind){.named = true, .start = SB_CHECKPOINT_KIND};
+    if (in == FOAM && sb_is_numbered(name, SB_FOAM_ENDING, 0)) return (kind){.named = true, .start = "<?xml"};
     if (in == GRIDS && sb_is_numbered(name, ".vti", 0)) return (kind){.named = true, .start = SB_VTI_HEAD};
     for (size_t k = 0; k < sizeof known / sizeof *known; k++)
         for (size_t i = 0; known[k].in == in && known_name(k, i); i++)

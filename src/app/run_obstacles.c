@@ -2,6 +2,7 @@
 #include "app/checkpoint.h"
 #include "app/run.h"
 #include "app/run_parts.h"
+#include "output/foam_files.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -94,6 +95,8 @@ sb_status sb_run_check_folders(const run *r, sb_error *error)
     const bool film = scene->render.interval > 0, stills = scene->render.still_count > 0;
     sb_status status = SB_OK;
     if (scene->output.particle_interval > 0) status = check_folder(r, SB_PARTICLE_FOLDER, error);
+    if (status == SB_OK && scene->output.particle_interval > 0 && scene->foam.enabled)
+        status = check_folder(r, SB_FOAM_FOLDER, error);
     if (status == SB_OK && scene->measure.map.present) status = check_folder(r, "maps", error);
     if (status == SB_OK && scene->output.plots) status = check_folder(r, "plots", error);
     if (status == SB_OK && film) status = check_cameras(r, "frames", error);

@@ -45,7 +45,7 @@ void sb_run_log_step(run *r)
 {
     const sb_step_report *report = sb_sim_report(r->sim);
     const sb_energy energy = sb_sim_energy(r->sim);
-    sb_runlog_state state = {.report = report, .energy = &energy, .has_hash = true};
+    sb_runlog_state state = {.report = report, .energy = &energy, .has_foam = r->scene->foam.enabled, .has_hash = true};
     state.stage_count = sb_sim_stages(r->sim, &state.stages);
     state.hash = sb_sim_hash(r->sim);
     sb_runlog_step(r->log, &state);

@@ -161,7 +161,8 @@ static sb_status start_consumers(run *r, sb_error *error)
 
 static void name_consumers(run *r)
 {
-    r->recorder = (sb_recorder){.directory = r->directory, .format = sb_particle_formats[0]};
+    r->recorder =
+        (sb_recorder){.directory = r->directory, .format = sb_particle_formats[0], .foam = r->scene->foam.enabled};
     r->streamer = (sb_streamer){.log = r->log};
 }
 

@@ -43,10 +43,20 @@ static void warn_of_stills(const sb_scene *scene, sb_warning_visit *visit, void 
     visit(context, text);
 }
 
+static void warn_of_foam(const sb_scene *scene, sb_warning_visit *visit, void *context)
+{
+    if (!scene->foam.enabled || sb_scene_draws(scene) || scene->output.particle_interval > 0 || scene->control.enabled)
+        return;
+    visit(context,
+          "foam.enabled: true, but the run draws no pictures and writes no particle files, so that the foam is "
+          "not seen; expected render.interval or output.particle_interval above 0, or foam.enabled: false");
+}
+
 void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
     char text[256];
     warn_of_stills(scene, visit, context);
+    warn_of_foam(scene, visit, context);
     for (size_t w = 0; w < scene->wavemaker_count; w++) {
         const sb_wavemaker_parameters *law = &scene->wavemakers[w].law;
         if (isinf(law->start) && !scene->control.enabled) {

@@ -3,8 +3,19 @@
 
 #include "base/memory.h"
 
+static void free_foam(sb_frame_foam *foam)
+{
+    sb_free(foam->position);
+    sb_free(foam->velocity);
+    sb_free(foam->life);
+    sb_free(foam->id);
+    sb_free(foam->kind);
+    *foam = (sb_frame_foam){0};
+}
+
 static void destroy(sb_frame *frame)
 {
+    free_foam(&frame->foam);
     sb_free(frame->position);
     sb_free(frame->velocity);
     sb_free(frame->pressure);
@@ -34,11 +45,29 @@ sb_frame *sb_frame_create(size_t count, size_t body_count)
     return frame;
 }
 
+int sb_frame_add_foam(sb_frame *frame, size_t count)
+{
+    sb_frame_foam foam = {.count = count};
+    if (count > SIZE_MAX / (3 * sizeof(float))) return -1;
+    foam.position = sb_alloc_untouched(3 * count, sizeof *foam.position);
+    foam.velocity = sb_alloc_untouched(3 * count, sizeof *foam.velocity);
+    foam.life = sb_alloc_untouched(count, sizeof *foam.life);
+    foam.id = sb_alloc_untouched(count, sizeof *foam.id);
+    foam.kind = sb_alloc_untouched(count, sizeof *foam.kind);
+    if (!foam.position || !foam.velocity || !foam.life || !foam.id || !foam.kind) {
+        free_foam(&foam);
+        return -1;
+    }
+    frame->foam = foam;
+    return 0;
+}
+
 void sb_frame_carry(sb_frame *frame, double time)
 {
     const double dt = time - frame->status.time;
     const float step = (float)dt;
     for (size_t k = 0; k < 3 * frame->count; k++) frame->position[k] += frame->velocity[k] * step;
+    for (size_t k = 0; k < 3 * frame->foam.count; k++) frame->foam.position[k] += frame->foam.velocity[k] * step;
     for (size_t b = 0; b < frame->body_count; b++)
         frame->bodies[b].displacement = sb_madd(frame->bodies[b].displacement, dt, frame->bodies[b].velocity);
     frame->status.time = time;

@@ -2,6 +2,8 @@
 #ifndef SB_FRAME_STEP_REPORT_H
 #define SB_FRAME_STEP_REPORT_H
 
+#include "frame/foam.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -18,9 +20,10 @@ typedef struct sb_step_report {
                                             largest */
     double max_speed;                    /* m/s */
     size_t fluid_count;
-    uint64_t left_domain;      /* particles that left through open sides so far */
-    uint64_t lost;             /* particles that passed a wall side of the domain so far */
-    double momentum_imbalance; /* of this step: |sum m a + sum F on bodies - M g| / sum m |a| */
+    uint64_t left_domain;       /* particles that left through open sides so far */
+    uint64_t lost;              /* particles that passed a wall side of the domain so far */
+    size_t foam[SB_FOAM_KINDS]; /* particles of each kind */
+    double momentum_imbalance;  /* of this step: |sum m a + sum F on bodies - M g| / sum m |a| */
 } sb_step_report;
 
 #endif

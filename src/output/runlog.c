@@ -294,6 +294,11 @@ void sb_runlog_step(sb_runlog *log, const sb_runlog_state *state)
     sb_json_count(&json, "fluid_particles", report->fluid_count);
     sb_json_count(&json, "left_domain", report->left_domain);
     sb_json_count(&json, "lost", report->lost);
+    if (state->has_foam) {
+        sb_json_count(&json, "foam_spray", report->foam[SB_FOAM_SPRAY]);
+        sb_json_count(&json, "foam_floating", report->foam[SB_FOAM_FLOATS]);
+        sb_json_count(&json, "foam_bubbles", report->foam[SB_FOAM_BUBBLES]);
+    }
     if (state->energy) {
         sb_json_number(&json, "kinetic_J", state->energy->kinetic);
         sb_json_number(&json, "potential_J", state->energy->potential);

@@ -52,6 +52,7 @@ typedef struct sb_runlog_state {
     const sb_energy *energy;     /* NULL: not written */
     const sb_stage_time *stages; /* seconds since the start */
     size_t stage_count;
+    bool has_foam;
     bool has_hash;
     uint64_t hash; /* of the state */
 } sb_runlog_state;

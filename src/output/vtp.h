@@ -16,6 +16,11 @@ sb_status sb_vtp_write(const char *path, const sb_frame *frame, uint64_t index, 
    of another kind, or one that is cut off or damaged, is SB_BAD_INPUT with the reason. */
 sb_status sb_vtp_read(const char *path, sb_frame **frame, sb_error *error);
 
+/* Writes the foam of a frame: velocity (m/s), life, id, kind (as in frame/foam.h). Field data: TimeValue (s). Reads it
+   into a frame that has an origin and no foam. Completely or not at all, and SB_BAD_INPUT, as above. */
+sb_status sb_vtp_write_foam(const char *path, const sb_frame *frame, sb_error *error);
+sb_status sb_vtp_read_foam(const char *path, sb_frame *frame, sb_error *error);
+
 /* Writes points only, for `shorebreak sample`: positions in m, unit normals (may be NULL), and the body
    each point belongs to, -1 for water (may be NULL). */
 sb_status sb_vtp_write_points(const char *path, size_t count, const sb_vec3 *positions, const sb_vec3 *normals,

@@ -101,8 +101,8 @@ static sb_status read_array(source *file, const char *name, const char *type, ui
     return status;
 }
 
-/* Converts the file's absolute doubles to floats relative to the frame's origin. */
-static sb_status read_points(source *file, sb_frame *frame, sb_error *error)
+/* Converts the file's absolute doubles to floats relative to an origin. */
+static sb_status read_points(source *file, sb_vec3 origin, float *position, sb_error *error)
 {
     uint64_t tuples = file->points;
     if (tuples == 0) return SB_OK;
@@ -112,10 +112,10 @@ static sb_status read_points(source *file, sb_frame *frame, sb_error *error)
         uint64_t count = tuples - first < POINT_BLOCK ? tuples - first : POINT_BLOCK;
         if (fread(block, 3 * sizeof(double), count, file->stream) != count) return damaged(file, error, "cut off");
         for (uint64_t i = 0; i < count; i++) {
-            float *out = frame->position + 3 * (first + i);
-            out[0] = (float)(block[3 * i] - frame->origin.x);
-            out[1] = (float)(block[3 * i + 1] - frame->origin.y);
-            out[2] = (float)(block[3 * i + 2] - frame->origin.z);
+            float *out = position + 3 * (first + i);
+            out[0] = (float)(block[3 * i] - origin.x);
+            out[1] = (float)(block[3 * i + 1] - origin.y);
+            out[2] = (float)(block[3 * i + 2] - origin.z);
         }
     }
     return status;
@@ -224,7 +224,7 @@ static sb_status read_frame(source *file, sb_frame **frame, sb_error *error)
     if (!made) return sb_fail_memory(error, file->path);
     status = read_fields(file, made, error);
     if (status == SB_OK) status = read_bodies(file, made, error);
-    if (status == SB_OK) status = read_points(file, made, error);
+    if (status == SB_OK) status = read_points(file, made->origin, made->position, error);
     if (status == SB_OK) status = read_array(file, "velocity", "Float32", 4, 3, file->points, made->velocity, error);
     if (status == SB_OK) status = read_array(file, "pressure", "Float32", 4, 1, file->points, made->pressure, error);
     if (status == SB_OK) status = read_array(file, "id", "UInt32", 4, 1, file->points, made->id, error);
@@ -233,6 +233,36 @@ static sb_status read_frame(source *file, sb_frame **frame, sb_error *error)
         sb_frame_release(made);
     else
         *frame = made;
+    return status;
+}
+
+static sb_status read_foam(source *file, sb_frame *frame, sb_error *error)
+{
+    const uint64_t n = file->points;
+    if (sb_frame_add_foam(frame, n) != 0) return sb_fail_memory(error, file->path);
+    sb_frame_foam *foam = &frame->foam;
+    sb_status status = read_points(file, frame->origin, foam->position, error);
+    if (status == SB_OK) status = read_array(file, "velocity", "Float32", 4, 3, n, foam->velocity, error);
+    if (status == SB_OK) status = read_array(file, "life", "Float32", 4, 1, n, foam->life, error);
+    if (status == SB_OK) status = read_array(file, "id", "UInt32", 4, 1, n, foam->id, error);
+    if (status == SB_OK) status = read_array(file, "kind", "UInt8", 1, 1, n, foam->kind, error);
+    if (status != SB_OK) return status;
+    if (!all_finite(foam->position, 3 * n) || !all_finite(foam->velocity, 3 * n) || !all_finite(foam->life, n))
+        return damaged(file, error, "foam whose position, velocity or life is not finite");
+    for (uint64_t p = 0; p < n; p++)
+        if (foam->kind[p] >= SB_FOAM_KINDS) return damaged(file, error, "foam of an unknown kind");
+    return SB_OK;
+}
+
+sb_status sb_vtp_read_foam(const char *path, sb_frame *frame, sb_error *error)
+{
+    source file = {.path = path};
+    sb_status status = sb_input_open(path, &file.stream, error);
+    if (status != SB_OK) return status;
+    status = read_header(&file, error);
+    if (status == SB_OK) status = read_foam(&file, frame, error);
+    sb_free(file.header);
+    fclose(file.stream);
     return status;
 }
 

@@ -46,15 +46,21 @@ static void produce_next(const void *source, size_t first, size_t count, void *b
     produce_index(source, first + 1, count, buffer);
 }
 
+/* Places relative to an origin. */
+typedef struct places {
+    sb_vec3 origin;
+    const float *position;
+} places;
+
 static void produce_points(const void *source, size_t first, size_t count, void *buffer)
 {
-    const sb_frame *frame = source;
-    const float *at = frame->position + 3 * first;
+    const places *from = source;
+    const float *at = from->position + 3 * first;
     double *out = buffer;
     for (size_t i = 0; i < count; i++, at += 3, out += 3) {
-        out[0] = frame->origin.x + (double)at[0];
-        out[1] = frame->origin.y + (double)at[1];
-        out[2] = frame->origin.z + (double)at[2];
+        out[0] = from->origin.x + (double)at[0];
+        out[1] = from->origin.y + (double)at[1];
+        out[2] = from->origin.z + (double)at[2];
     }
 }
 
@@ -215,11 +221,28 @@ sb_status sb_vtp_write(const char *path, const sb_frame *frame, uint64_t index, 
         add(&file, (array){"pressure", "Float32", 4, 1, frame->count, frame->pressure, NULL});
         add(&file, (array){"id", "UInt32", 4, 1, frame->count, frame->id, NULL});
         file.point_count = file.total - file.field_count;
-        add_geometry(&file, frame, produce_points);
+        const places at = {frame->origin, frame->position};
+        add_geometry(&file, &at, produce_points);
         status = write_file(path, &file, error);
     }
     free_columns(&columns);
     return status;
+}
+
+sb_status sb_vtp_write_foam(const char *path, const sb_frame *frame, sb_error *error)
+{
+    const sb_frame_foam *foam = &frame->foam;
+    const places at = {frame->origin, foam->position};
+    layout file = {.points = foam->count};
+    add(&file, (array){"TimeValue", "Float64", 8, 1, 1, &frame->status.time, NULL});
+    file.field_count = file.total;
+    add(&file, (array){"velocity", "Float32", 4, 3, foam->count, foam->velocity, NULL});
+    add(&file, (array){"life", "Float32", 4, 1, foam->count, foam->life, NULL});
+    add(&file, (array){"id", "UInt32", 4, 1, foam->count, foam->id, NULL});
+    add(&file, (array){"kind", "UInt8", 1, 1, foam->count, foam->kind, NULL});
+    file.point_count = file.total - file.field_count;
+    add_geometry(&file, &at, produce_points);
+    return write_file(path, &file, error);
 }
 
 sb_status sb_vtp_write_points(const char *path, size_t count, const sb_vec3 *positions, const sb_vec3 *normals,

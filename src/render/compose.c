@@ -24,6 +24,13 @@ static const char inputs[] =
     "  return 1.0 - 0.65 * above(shade, s.xy, bias - s.z);\n"
     "}\n";
 
+/* Covers of a pixel by foam, spray and bubbles, and the depth of its spray. */
+static const char foam[] = "#ifdef FOAM\n"
+                           "uniform sampler2D foam;\n"
+                           "uniform float foaming;\n"
+                           "vec4 foam_at(ivec2 p) { return foaming > 0.5 ? texelFetch(foam, p, 0) : vec4(0.0); }\n"
+                           "#endif\n";
+
 /* Colour of a body: wet where the water has been, and with the greatest depth. */
 static const char body[] =
     "vec3 albedo_of(ivec2 p, vec3 place, vec3 n) {\n"
@@ -67,12 +74,24 @@ static const char water[] = "vec3 normal_of(vec4 w) {\n"
                             "  vec3 place = eye + ray(p) * w.x, to_eye = -normalize(ray(p)), n = normal_of(w);\n"
                             "  float shadow = sunny(place, shade_bias);\n"
                             "  vec3 albedo = texture(colors, vec2(w.y, 0.5)).rgb;\n"
+                            "#ifdef FOAM\n"
+                            "  vec4 froth = foam_at(p);\n"
+                            "  vec3 own = mix(albedo * albedo, vec3(0.55, 0.68, 0.72), 0.6 * froth.w);\n"
+                            "  own = mix(own, vec3(1.05), froth.x);\n"
+                            "  clear *= (1.0 - froth.x) * (1.0 - 0.5 * froth.w);\n"
+                            "  vec3 c = mix(0.8 * lit(own, place, n, shadow, open), bed, clear);\n"
+                            "#else\n"
                             "  vec3 c = mix(0.8 * lit(albedo * albedo, place, n, shadow, open), bed, clear);\n"
+                            "#endif\n"
                             "  float facing = clamp(dot(n, to_eye), 0.0, 1.0);\n"
                             "  float f = 1.0 - facing; f *= f; f *= f * (1.0 - facing);\n"
                             "  vec3 mirrored = reflect(-to_eye, n);\n"
                             "  float spark = pow(max(dot(mirrored, sun), 0.0), 90.0) * shadow;\n"
                             "  mirrored.z = abs(mirrored.z);\n"
+                            "#ifdef FOAM\n"
+                            "  f *= 1.0 - froth.x;\n"
+                            "  spark *= 1.0 - froth.x;\n"
+                            "#endif\n"
                             "  c = mix(c, sky(mirrored), 0.02 + 0.34 * f) + spark * vec3(0.30, 0.28, 0.24);\n"
                             "  return hazed(c, place);\n"
                             "}\n";
@@ -106,6 +125,9 @@ static const char *const mains[SB_COMPOSE_PASSES] = {
              "  vec4 w = texelFetch(surface, p, 0), k = cover_at(p);\n"
              "  float z = depth_at(p), share = w.x > 0.0 && w.x < z ? k.x : 0.0;\n"
              "  bool drops = k.z > 0.004 && k.w < z;\n"
+             "#ifdef FOAM\n"
+             "  drops = drops || foam_at(p).y > 0.004;\n"
+             "#endif\n"
              "  gl_FragDepth = share < 0.004 && !drops ? 0.0\n"
              "               : share > 0.996 && !drops && clear_of(p, w, k, z) < 0.02 ? 0.5 : 1.0;\n"
              "}\n",
@@ -127,7 +149,13 @@ static const char *const mains[SB_COMPOSE_PASSES] = {
                 "  vec3 drop = texture(colors, vec2(w.y, 0.5)).rgb, place = eye + ray(p) * k.w;\n"
                 "  drop = mix(drop * drop, vec3(0.85), 0.15 + 0.5 * w.y);\n"
                 "  drop = hazed(lit(drop, place, vec3(0.0, 0.0, 1.0), 1.0, 1.0), place);\n"
-                "  color = encoded(mix(c, drop, k.w < z ? 0.7 * k.z : 0.0));\n"
+                "  c = mix(c, drop, k.w < z ? 0.7 * k.z : 0.0);\n"
+                "#ifdef FOAM\n"
+                "  vec4 froth = foam_at(p);\n"
+                "  vec3 there = eye + ray(p) * froth.z;\n"
+                "  c = mix(c, hazed(lit(vec3(0.92), there, vec3(0.0, 0.0, 1.0), 1.0, 1.0), there), froth.y);\n"
+                "#endif\n"
+                "  color = encoded(c);\n"
                 "}\n",
     [DEPTH] = "void main() {\n"
               "  ivec2 p = pixel();\n"
@@ -138,10 +166,18 @@ static const char *const mains[SB_COMPOSE_PASSES] = {
               "}\n",
 };
 
-static sb_status make_program(int pass, GLuint *program, sb_error *error)
+static sb_status make_program(int pass, bool foaming, GLuint *program, sb_error *error)
 {
-    const char *pieces[] = {sb_light_source, sb_tops_source, inputs, body, water, shallow, mains[pass]};
-    char source[16000];
+    const char *pieces[] = {foaming ? "#define FOAM\n" : "",
+                            sb_light_source,
+                            sb_tops_source,
+                            inputs,
+                            foam,
+                            body,
+                            water,
+                            shallow,
+                            mains[pass]};
+    char source[20000];
     size_t length = 0;
     for (size_t i = 0; i < sizeof pieces / sizeof *pieces; i++) {
         const size_t more = strlen(pieces[i]);
@@ -152,12 +188,12 @@ static sb_status make_program(int pass, GLuint *program, sb_error *error)
     return sb_program_create("picture", sb_fullscreen_vertex, NULL, source, program, error);
 }
 
-sb_status sb_compose_create(sb_compose *compose, sb_error *error)
+sb_status sb_compose_create(bool foaming, sb_compose *compose, sb_error *error)
 {
     sb_compose made = {0};
     sb_status status = SB_OK;
     for (int pass = 0; pass < SB_COMPOSE_PASSES && status == SB_OK; pass++)
-        status = make_program(pass, &made.programs[pass], error);
+        status = make_program(pass, foaming, &made.programs[pass], error);
     if (status != SB_OK) {
         sb_compose_destroy(&made);
         return status;
@@ -196,6 +232,7 @@ static void bind_textures(const sb_compose *compose, const sb_parts *parts, GLui
     sb_uniform_texture(program, "shade", 9, parts->shade->texture);
     sb_uniform_texture(program, "reached", 10, parts->reached ? parts->reached->texture : parts->shade->texture);
     sb_uniform_texture(program, "occlusion", 11, parts->occlusion ? parts->occlusion->texture[0] : 0);
+    if (parts->foam) sb_uniform_texture(program, "foam", 12, parts->foam);
 }
 
 static void draw_pass(const sb_compose *compose, const sb_parts *parts, const sb_view *view, int pass, double depth)
@@ -211,6 +248,7 @@ static void draw_pass(const sb_compose *compose, const sb_parts *parts, const sb
     sb_uniform_float(program, "solid", parts->water->solid);
     sb_uniform_float(program, "occluded", parts->occlusion != NULL);
     sb_uniform_float(program, "shade_bias", parts->shade_bias);
+    sb_uniform_float(program, "foaming", parts->foam != 0);
     sb_uniform_float(program, "wet", parts->wet);
     sb_uniform_float(program, "painted", parts->painted);
     sb_uniform_float(program, "depth_max", parts->depth_max);

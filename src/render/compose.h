@@ -20,6 +20,7 @@ typedef struct sb_parts {
     const sb_water *water;
     const sb_light *light;
     const sb_occlusion *occlusion; /* NULL: none */
+    GLuint foam;                   /* texture of sb_foam_layer.pixels; 0: the picture has none */
     const sb_tops *shade;          /* the water as seen from the sun */
     double shade_bias;             /* heights of `shade` by which water does not shade itself */
     const sb_tops *reached;        /* highest water so far, m above the light's origin; NULL without the next two */
@@ -30,7 +31,8 @@ typedef struct sb_parts {
     int map;                       /* of the water's colours */
 } sb_parts;
 
-sb_status sb_compose_create(sb_compose *compose, sb_error *error);
+/* foaming: whether pictures may have foam. Without it the programs have no code for it. */
+sb_status sb_compose_create(bool foaming, sb_compose *compose, sb_error *error);
 void sb_compose_destroy(sb_compose *compose);
 
 /* Draws all pixels and depths of the bound framebuffer. */

@@ -5,6 +5,7 @@
 #include "render/compose.h"
 #include "render/context.h"
 #include "render/fields.h"
+#include "render/foam_texture.h"
 #include "render/marks.h"
 #include "render/overlay.h"
 #include "render/soften.h"
@@ -22,6 +23,7 @@ struct sb_renderer {
     sb_light light;
     sb_scenery sceneries[SCENERIES]; /* of the cameras, each with its number modulo SCENERIES */
     sb_water water;
+    sb_foam_texture foam;
     sb_occlusion occlusion;
     sb_compose compose;
     sb_values values;
@@ -88,7 +90,7 @@ static sb_status make_passes(sb_renderer *r, const sb_model *model, sb_error *er
     if (status == SB_OK) status = sb_water_create(r->width, r->height, &r->water, error);
     if (status == SB_OK && r->scene->render.occlusion)
         status = sb_occlusion_create(r->width, r->height, &r->occlusion, error);
-    if (status == SB_OK) status = sb_compose_create(&r->compose, error);
+    if (status == SB_OK) status = sb_compose_create(r->scene->foam.enabled, &r->compose, error);
     return status;
 }
 
@@ -198,6 +200,7 @@ static void draw_picture(sb_renderer *r, const sb_frame *frame, const sb_scenery
                             .water = &r->water,
                             .light = &r->light,
                             .occlusion = settings->occlusion ? &r->occlusion : NULL,
+                            .foam = r->foam.drawn ? r->foam.texture : 0,
                             .shade = &r->shade,
                             .shade_bias = 1.5 * frame->spacing * shadow_scale(&r->light),
                             .reached = settings->wet_ground || settings->greatest_depth ? &r->reached : NULL,
@@ -224,6 +227,8 @@ static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, size_t numbe
     if (status == SB_OK) status = sb_values_compute(&r->values, frame, camera->color, range[0], range[1], error);
     if (status == SB_OK)
         status = sb_water_draw(&r->water, frame, r->values.list, &r->light.solid, view, camera->style, error);
+    if (status == SB_OK && r->scene->foam.enabled)
+        status = sb_foam_texture_draw(&r->foam, frame, scenery, &r->water, view, error);
     if (status == SB_OK) status = draw_maps(r, frame, error);
     if (status != SB_OK) return status;
     draw_picture(r, frame, scenery, camera, view);
@@ -285,6 +290,7 @@ void sb_renderer_destroy(sb_renderer *renderer)
     if (!r) return;
     if (r->context && sb_context_enter(r->context, NULL) == SB_OK) {
         sb_water_destroy(&r->water);
+        sb_foam_texture_destroy(&r->foam);
         sb_occlusion_destroy(&r->occlusion);
         sb_compose_destroy(&r->compose);
         sb_tops_destroy(&r->shade);

@@ -248,6 +248,14 @@ typedef struct sb_sponge {
     double strength;      /* 1/s, at the end and behind it */
 } sb_sponge;
 
+/* Spray, foam and bubbles: particles for pictures, which the water does not feel. */
+typedef struct sb_foam_settings {
+    bool enabled;
+    int most;        /* particles */
+    double lifetime; /* s at the surface or below it; 0: from the depth of the water */
+    double amount;   /* factor on the number of particles that water emits */
+} sb_foam_settings;
+
 typedef struct sb_gauge {
     char name[SB_NAME_MAX];
     double x, y;
@@ -489,6 +497,7 @@ typedef struct sb_scene {
     sb_wavemaker_use *wavemakers;
     size_t sponge_count;
     sb_sponge *sponges;
+    sb_foam_settings foam;
     sb_measure_settings measure;
     sb_render_settings render;
     sb_stream_settings stream;

@@ -1,6 +1,7 @@
 /* Creation and destruction of a simulation, and its simple accessors. */
 #include "base/memory.h"
 #include "sim/exchange/exchange.h"
+#include "sim/foam/foam.h"
 #include "sim/passes/cpu/searcher.h"
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
@@ -53,6 +54,7 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
                sb_scene_sea_side(scene, 3),
         .surface_tension = scene->fluid.surface_tension > 0,
         .sponge = scene->sponge_count > 0,
+        .foam = scene->foam.enabled,
         .settling = settling,
         .start_velocity = settling && starts_in_motion(model),
         .direction = solver->needs_direction,
@@ -112,6 +114,7 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
     if (status == SB_OK && allocate(made) != 0) status = sb_fail_memory(error, "fluid particles");
     if (status == SB_OK) status = sb_walls_create(made, error);
     if (status == SB_OK) status = sb_strip_create(made, error);
+    if (status == SB_OK) status = sb_foam_create(made, error);
     if (status != SB_OK) {
         sb_sim_destroy(made);
         return status;
@@ -173,6 +176,7 @@ void sb_sim_destroy(sb_sim *sim)
     sb_ghosts_destroy(sim);
     sb_walls_destroy(sim);
     sb_pushes_destroy(sim->pushes);
+    sb_foam_destroy(sim->foam);
     sb_free(sim);
 }
 
@@ -207,7 +211,7 @@ size_t sb_sim_bytes(const sb_sim *sim)
                    sb_cells_bytes(&sim->ghosts.cells);
     bytes += sim->ghosts.of_capacity * 4 + (sim->ghosts.words_capacity + sim->ghosts.other_capacity) * 8;
     bytes += sim->work.pairs.capacity * sizeof *sim->work.pairs.four + sim->work.wall_pairs.capacity * 8;
-    bytes += sb_strip_bytes(sim);
+    bytes += sb_strip_bytes(sim) + sb_foam_bytes(sim->foam);
     bytes += sim->groups.capacity * sizeof *sim->groups.group + sim->groups.room * sizeof *sim->groups.run;
     bytes += sim->groups.images_room * sizeof *sim->groups.image + sim->groups.planes_room * sizeof *sim->groups.plane;
     bytes += sim->work.edge_pairs.capacity * sizeof *sim->work.edge_pairs.pair + sb_mirrors_bytes(sim);

@@ -24,6 +24,7 @@ struct sb_passes;   /* sim/passes/passes.h */
 struct sb_pushes;   /* sim/walls/pushes.h */
 struct sb_strip;    /* sim/sea/strip.h */
 struct sb_exchange; /* sim/exchange/exchange.h */
+struct sb_foam;     /* sim/foam/foam.h */
 
 struct sb_sim {
     /* constant */
@@ -47,6 +48,7 @@ struct sb_sim {
     sb_groups groups;
 
     /* output only */
+    struct sb_foam *foam;     /* NULL: the scene has none */
     struct sb_pushes *pushes; /* sim/walls/pushes.h; NULL: none are recorded */
     sb_step_report report;
     sb_stage_time stage[SB_STAGES_MAX];

@@ -47,6 +47,8 @@ static void check_and_run_give_the_same_warnings(void **state)
         {TANK
          "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\nfluid: {surface_tension: 0.0728}\n",
          "fluid.surface_tension: 0.0728 N/m acts below 0.00272 m", "expected a resolution below 0.00136 m"},
+        {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\nfoam: {enabled: true}\n",
+         "foam.enabled: true, but the run draws no pictures", "expected render.interval or output.particle_interval"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         write_text("doubtful.yaml", cases[k].scene);

@@ -1,5 +1,6 @@
-/* Fuzzes a particle file. An input that begins with 'e' is a sequence of edits to a valid file; any other input is the
-   file itself. A frame that is read must have finite numbers, and must not change when it is written and read again. */
+/* Fuzzes a particle file. An input that begins with 'e' is a sequence of edits to a valid file, one that begins with
+   'f' a sequence of edits to a valid file of foam; any other input is the file itself. A frame that is read must have
+   finite numbers, and must not change when it is written and read again. */
 #include "fuzz.h"
 
 #include "base/file.h"
@@ -10,8 +11,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-static char *valid;
-static size_t length;
+static char *valid, *valid_foam;
+static size_t length, foam_length;
 
 static void make_valid(void)
 {
@@ -27,6 +28,35 @@ static void make_valid(void)
     snprintf(path, sizeof path, "%s", fuzz_save("valid.vtp", NULL, 0));
     FUZZ_CHECK(sb_vtp_write(path, frame, frame->index, NULL) == SB_OK);
     FUZZ_CHECK(sb_file_read(path, 1 << 20, &valid, &length, NULL) == SB_OK);
+    FUZZ_CHECK(sb_frame_add_foam(frame, 4) == 0);
+    memset(frame->foam.position, 0, 4 * 3 * sizeof(float));
+    memset(frame->foam.velocity, 0, 4 * 3 * sizeof(float));
+    for (uint32_t i = 0; i < 4; i++) {
+        frame->foam.life[i] = 0.25f * (float)i;
+        frame->foam.id[i] = i;
+        frame->foam.kind[i] = (uint8_t)(i % SB_FOAM_KINDS);
+    }
+    FUZZ_CHECK(sb_vtp_write_foam(path, frame, NULL) == SB_OK);
+    FUZZ_CHECK(sb_file_read(path, 1 << 20, &valid_foam, &foam_length, NULL) == SB_OK);
+    sb_frame_release(frame);
+}
+
+/* Foam that is read has finite numbers and known kinds. */
+static void try_foam(const uint8_t *data, size_t size)
+{
+    uint8_t *file = malloc(foam_length);
+    sb_frame *frame = sb_frame_create(0, 0);
+    sb_error error = {0};
+    FUZZ_CHECK(file && frame);
+    memcpy(file, valid_foam, foam_length);
+    fuzz_edit(file, foam_length, data, size);
+    const sb_status status = sb_vtp_read_foam(fuzz_save("some.vtp", file, foam_length), frame, &error);
+    free(file);
+    if (status != SB_OK) fuzz_check_refusal(status, &error);
+    for (size_t i = 0; status == SB_OK && i < 3 * frame->foam.count; i++)
+        FUZZ_CHECK(isfinite(frame->foam.position[i]) && isfinite(frame->foam.velocity[i]));
+    for (size_t i = 0; status == SB_OK && i < frame->foam.count; i++)
+        FUZZ_CHECK(isfinite(frame->foam.life[i]) && frame->foam.kind[i] < SB_FOAM_KINDS);
     sb_frame_release(frame);
 }
 
@@ -59,6 +89,10 @@ static void check_again(const sb_frame *frame)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     if (!valid) make_valid();
+    if (size > 0 && data[0] == 'f') {
+        try_foam(data + 1, size - 1);
+        return 0;
+    }
     const bool edits = size > 0 && data[0] == 'e';
     const size_t bytes = edits ? length : size;
     uint8_t *file = malloc(bytes ? bytes : 1);

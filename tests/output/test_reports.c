@@ -158,7 +158,7 @@ static void every_line_of_the_log_is_json(void **state)
     const sb_step_report report = {
         .step = 10, .time = 0.5, .time_step = 0.05, .iterations = 3, .error_max = (double)NAN, .fluid_count = 1000};
     const sb_energy energy = {.kinetic = 1, .potential = 2};
-    sb_runlog_step(log, &(sb_runlog_state){&report, &energy, stages, 2, true, 0xff});
+    sb_runlog_step(log, &(sb_runlog_state){&report, &energy, stages, 2, true, true, 0xff});
     sb_runlog_bodies(log, &model, records);
     sb_runlog_event(log, "frame", "%s", "line\nbreak");
     sb_runlog_end(log, SB_INTERRUPTED, NULL);

@@ -258,6 +258,64 @@ static void failing_memory_is_an_error(void **state)
     sb_frame_release(frame);
 }
 
+/* A frame with foam, and one with the same origin that it is read into. */
+static void make_foam(size_t count, sb_frame *frames[2])
+{
+    for (int k = 0; k < 2; k++) frames[k] = make_frame(3, 0);
+    assert_int_equal(sb_frame_add_foam(frames[0], count), 0);
+    sb_frame_foam *foam = &frames[0]->foam;
+    for (size_t i = 0; i < 3 * count; i++) {
+        foam->position[i] = 0.25f * (float)i;
+        foam->velocity[i] = (float)sb_random(3, i);
+    }
+    for (size_t i = 0; i < count; i++) {
+        foam->life[i] = (float)sb_random(4, i);
+        foam->id[i] = (uint32_t)(1000 + i);
+        foam->kind[i] = (uint8_t)(i % SB_FOAM_KINDS);
+    }
+}
+
+static void foam_is_read_back(void **state)
+{
+    (void)state;
+    static const size_t counts[] = {0, 1, 500};
+    for (size_t c = 0; c < 3; c++) {
+        const size_t n = counts[c];
+        sb_frame *frames[2];
+        sb_error error = {0};
+        make_foam(n, frames);
+        assert_int_equal(sb_vtp_write_foam(in_folder("f.vtp"), frames[0], &error), SB_OK);
+        if (sb_vtp_read_foam(in_folder("f.vtp"), frames[1], &error) != SB_OK) fail_msg("%s", error.text);
+        const sb_frame_foam *a = &frames[0]->foam, *b = &frames[1]->foam;
+        assert_int_equal(b->count, n);
+        assert_memory_equal(a->position, b->position, 12 * n); /* multiples of 1/4 */
+        assert_memory_equal(a->velocity, b->velocity, 12 * n);
+        assert_memory_equal(a->life, b->life, 4 * n);
+        assert_memory_equal(a->id, b->id, 4 * n);
+        assert_memory_equal(a->kind, b->kind, n);
+        for (int k = 0; k < 2; k++) sb_frame_release(frames[k]);
+    }
+}
+
+static void bad_foam_is_refused(void **state)
+{
+    (void)state;
+    for (int fault = 0; fault < 4; fault++) {
+        sb_frame *frames[2];
+        sb_error error = {0};
+        make_foam(20, frames);
+        if (fault == 0) frames[0]->foam.kind[7] = SB_FOAM_KINDS;
+        if (fault == 1) frames[0]->foam.life[19] = (float)NAN;
+        if (fault == 2) frames[0]->foam.position[59] = (float)INFINITY;
+        if (fault < 3) assert_int_equal(sb_vtp_write_foam(in_folder("g.vtp"), frames[0], NULL), SB_OK);
+        /* A file of particles is none of foam. */
+        if (fault == 3) assert_int_equal(sb_vtp_write(in_folder("g.vtp"), frames[0], 1, NULL), SB_OK);
+        assert_int_equal(sb_vtp_read_foam(in_folder("g.vtp"), frames[1], &error), SB_BAD_INPUT);
+        assert_non_null(strstr(error.text, "g.vtp"));
+        for (int k = 0; k < 2; k++) sb_frame_release(frames[k]);
+    }
+}
+
 static void bare_points(void **state)
 {
     (void)state;
@@ -320,6 +378,8 @@ int main(void)
         cmocka_unit_test(fractional_counts_are_refused),
         cmocka_unit_test(values_that_are_not_finite_are_refused),
         cmocka_unit_test(failing_memory_is_an_error),
+        cmocka_unit_test(foam_is_read_back),
+        cmocka_unit_test(bad_foam_is_refused),
         cmocka_unit_test(bare_points),
         cmocka_unit_test(pvd_lists_real_times),
     };

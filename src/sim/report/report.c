@@ -1,5 +1,7 @@
 #include "sim/report/report.h"
 
+#include "sim/foam/foam.h"
+
 void sb_report_update(sb_sim *sim)
 {
     sb_step_report *report = &sim->report;
@@ -12,6 +14,7 @@ void sb_report_update(sb_sim *sim)
     report->fluid_count = state->n;
     report->left_domain = state->left_domain;
     report->lost = state->lost;
+    sb_foam_count(sim->foam, report->foam);
 }
 
 const sb_step_report *sb_sim_report(const sb_sim *sim)
@@ -58,6 +61,9 @@ void sb_report_skipped(sb_sim *sim)
              sb_work_cost(&sim->needs, "product"));
     if (!sim->needs.settling)
         skip(sim, &s, "settling: settle_steps is 0, the water starts from the initial lattice", 0, 0);
+    if (!sim->needs.foam)
+        skip(sim, &s, "foam: off, no spray, foam and bubbles", 1,
+             sb_work_cost(&sim->needs, "surface") + sb_work_cost(&sim->needs, "emission"));
     sim->skipped[s] = (sb_skipped){.what = NULL};
 }
 

@@ -3,6 +3,7 @@
    the process and are not saved. */
 #include "base/archive.h"
 #include "base/memory.h"
+#include "sim/foam/foam.h"
 #include "sim/report/report.h"
 #include "sim/sea/strip.h"
 #include "sim/search/departures.h"
@@ -106,6 +107,7 @@ void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
         if (sim->walls.moving[m].commanded) sb_put_real(out, sim->walls.moving[m].paddle.start);
     }
     sb_absorbers_save(sim, out);
+    sb_foam_save(sim, out);
     sb_put_count(out, sb_sim_hash(sim));
 }
 
@@ -196,6 +198,7 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     check_particles(sim, sim->state.n, in);
     take_moving(sim, in);
     sb_absorbers_load(sim, in);
+    sb_foam_load(sim, in);
     const uint64_t expected = sb_take_count(in, UINT64_MAX), hash = sb_sim_hash(sim);
     if (in->error.status == SB_OK && hash != expected)
         sb_archive_refuse(in, "state hash is %016llx, expected %016llx", (unsigned long long)hash,

@@ -1,4 +1,5 @@
 /* Output of the simulation: frames for consumers, samples for gauges and probes. */
+#include "sim/foam/foam.h"
 #include "sim/simulation.h"
 
 #include <math.h>
@@ -23,6 +24,10 @@ sb_frame *sb_sim_snapshot(const sb_sim *sim)
     const size_t count = sim->state.n;
     sb_frame *frame = sb_frame_create(count, model->body_count);
     if (!frame) return NULL;
+    if (sb_foam_fill(sim, frame) != 0) {
+        sb_frame_release(frame);
+        return NULL;
+    }
     const sb_vec3 shift = sb_sub(sim->space.origin, model->min);
     const double quantum = sim->space.quantum;
     frame->origin = model->min;

@@ -21,7 +21,7 @@ const sb_work_view sb_work_views[] = {
     {"wall_counts", VIEW(wall_pairs.count), FROM(NEIGHBOURS, AFTER), .unit = "", .needed = SB_ALWAYS},
     {"edge_lists", VIEW(edge_pairs.first), FROM(NEIGHBOURS, AFTER), .unit = "", .needed = SB_NEEDS(images)},
     {"edge_counts", VIEW(edge_pairs.count), FROM(NEIGHBOURS, AFTER), .unit = "", .needed = SB_NEEDS(images)},
-    {WORK(wall), FROM(NEIGHBOURS, IMPULSE), .unit = "kg/m^4", .needed = SB_ALWAYS},
+    {WORK(wall), FROM(NEIGHBOURS, FOAM), .unit = "kg/m^4", .needed = SB_ALWAYS},
     {WORK(image_push), FROM(NEIGHBOURS, FORCES), .unit = "m/s^2", .needed = SB_NEEDS(images)},
     {WORK(density), FROM(NEIGHBOURS, AFTER), .unit = "kg/m^3", .needed = SB_ALWAYS},
     {WORK(wall_density), FROM(NEIGHBOURS, DENSITY_CORRECTION), .unit = "kg/m^3",
@@ -47,6 +47,8 @@ const sb_work_view sb_work_views[] = {
     {WORK(acceleration), FROM(PRESSURE, ACCELERATE), .unit = "m/s^2", .ghosts = true, .needed = SB_ALWAYS},
     {WORK(end_velocity), FROM(ACCELERATE, MOVE), .unit = "m/s", .ghosts = true, .replaces = "acceleration",
      .needed = SB_ALWAYS},
+    {WORK(surface), FROM(FOAM, FOAM), .unit = "1", .ghosts = true, .needed = SB_NEEDS(foam)},
+    {WORK(emission), FROM(FOAM, FOAM), .unit = "", .needed = SB_NEEDS(foam)},
     {WORK(virial), FROM(AFTER, AFTER), .unit = "Pa", .needed = SB_ALWAYS},
     {.name = NULL},
 };

@@ -24,6 +24,7 @@ typedef enum sb_phase {
     SB_PHASE_PRESSURE,
     SB_PHASE_ACCELERATE,
     SB_PHASE_IMPULSE,
+    SB_PHASE_FOAM,
     SB_PHASE_MOVE,
     SB_PHASE_AFTER, /* snapshots and queries between two steps */
     SB_PHASES
@@ -96,6 +97,8 @@ typedef struct sb_work {
     float *product;      /* A times the argument; NULL: not needed */
     sb_f4 *acceleration; /* m/s^2, by the pressure argument; last lane 0 */
     sb_f4 *end_velocity; /* m/s, at t + dt; last lane: pressure in Pa */
+    sb_f4 *surface;      /* unit normal out of the water, and the length of which it is a fraction (sim/foam/foam.h) */
+    uint32_t *emission;  /* particles of foam to be emitted: their expected number, then their first index */
     float *virial;       /* Pa, virial pressures (sim/terms/virial_pressure.c) */
 
     uint64_t everywhere;  /* owned particles of all domains */

@@ -1,6 +1,7 @@
 /* The time step as a table: one row per stage, and one loop that runs and times the stages. */
 #include "base/clock.h"
 #include "sim/exchange/exchange.h"
+#include "sim/foam/foam.h"
 #include "sim/report/report.h"
 #include "sim/sea/strip.h"
 #include "sim/step/stages.h"
@@ -61,6 +62,8 @@ static const stage stages[] = {
     {"drained", SB_PHASES, sb_stage_drained, SB_NEEDS(sponge)},
     /* work of surface tension */
     {"surface_work", SB_PHASES, sb_stage_surface_work, SB_NEEDS(surface_tension)},
+    /* spray, foam and bubbles, which nothing else reads */
+    {"foam", SB_PHASE_FOAM, sb_stage_foam, SB_NEEDS(foam)},
     /* x at t + dt */
     {"move", SB_PHASE_MOVE, sb_stage_move, SB_ALWAYS},
 };
