@@ -34,12 +34,22 @@ static double paddle_reflection(const sb_scene *scene, const sb_wavemaker_use *m
                                    maker->law.depth, scene->fluid.gravity, distance);
 }
 
+static void print_plates(const sb_scene *scene, const sb_wavemaker_use *maker)
+{
+    sb_plate_row row;
+    if (sb_scene_plates(scene, maker, &row) == 0) return;
+    printf("    %zu push-plates of %.4g m along %c, %.3g spacings each\n", row.count,
+           (row.to - row.from) / (double)row.count, row.axis == 0 ? 'x' : 'y',
+           (row.to - row.from) / (double)row.count / scene->resolution);
+}
+
 static void print_absorption(const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
 {
     const double reflection = paddle_reflection(scene, maker, paddle);
     if (isnan(reflection)) return;
     printf("    absorbs within %.3g m of its law; predicted reflection at %.4g s %.2g %%\n", maker->law.reach,
            paddle->kind->facts(paddle->state)->period, 100 * reflection);
+    print_plates(scene, maker);
 }
 
 static void print_train(void *context, const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
@@ -104,6 +114,8 @@ static void put_train(void *context, const sb_scene *scene, const sb_wavemaker_u
     sb_json_number(json, "particles_per_wavelength", f->length / scene->resolution);
     sb_json_number(json, "travel_m", f->travel);
     if (maker->law.absorb) sb_json_number(json, "predicted_reflection", paddle_reflection(scene, maker, paddle));
+    sb_plate_row row;
+    if (sb_scene_plates(scene, maker, &row) > 0) sb_json_count(json, "plates", row.count);
     sb_json_close(json);
 }
 

@@ -83,6 +83,10 @@ static void put_absorptions(sb_json *json, const sb_summary *s)
         sb_json_number(json, "offset_m", a->offset);
         sb_json_number(json, "farthest_m", a->farthest);
         sb_json_count(json, "limited_steps", a->limited);
+        if (a->plates > 0) {
+            sb_json_count(json, "plates", a->plates);
+            sb_json_number(json, "apart_m", a->apart);
+        }
         sb_json_close(json);
     }
     if (open) sb_json_close(json);

@@ -228,12 +228,18 @@ typedef struct sb_body {
     double width, length;  /* plane: horizontal extent, and extent perpendicular to it */
 } sb_body;
 
+/* Push-plates side by side, into which an absorbing paddle is divided. */
+typedef struct sb_plate_settings {
+    double width; /* m, about that of each; 0: the paddle is one */
+} sb_plate_settings;
+
 /* A body's motion along `direction`: the law's displacement(t - start). */
 typedef struct sb_wavemaker_use {
     char name[SB_NAME_MAX];
     char body[SB_NAME_MAX];
     sb_vec3 direction;           /* unit */
     sb_wavemaker_parameters law; /* kind, height, depth, stroke, ..., motion after the stroke */
+    sb_plate_settings plates;
 } sb_wavemaker_use;
 
 /* A zone in which water is slowed down. */
@@ -531,6 +537,15 @@ static inline bool sb_scene_repeats(const sb_scene *scene, int axis)
 
 /* Whether a body may have this name. The names of a split mesh are known only when its file is read. */
 bool sb_scene_may_have_body(const sb_scene *scene, const char *name);
+
+/* The push-plates of a paddle: `count` of equal width from `from` to `to` (m) along an axis, 0: x, 1: y. */
+typedef struct sb_plate_row {
+    int axis;
+    double from, to;
+    size_t count;
+} sb_plate_row;
+/* Finds the plates of a wave maker's body, within the domain. Returns their number, 0: the paddle is one. */
+size_t sb_scene_plates(const sb_scene *scene, const sb_wavemaker_use *use, sb_plate_row *row);
 
 /* Index of the gauge of that name; gauge_count if there is none. */
 size_t sb_scene_gauge(const sb_scene *scene, const char *name);

@@ -246,9 +246,13 @@ sb_status sb_stage_walls(sb_sim *sim, sb_error *error)
         if (moving->absorber) here += moving->absorber->offset;
         moved |= here != moving->displacement;
         moving->displacement = here;
-        if (moving->absorber && sim->policy->runs) there += sb_absorber_advance(sim, moving);
         moving->next_displacement = there;
-        moving->velocity = sb_scale(moving->direction, (there - here) / dt);
+    }
+    if (sim->policy->runs && sb_absorbers_measure(sim) != 0) return sb_fail_memory(error, "absorbing paddles");
+    for (size_t m = 0; m < sim->walls.moving_count; m++) {
+        sb_moving_body *moving = &sim->walls.moving[m];
+        if (moving->absorber && sim->policy->runs) moving->next_displacement += sb_absorber_advance(sim, moving);
+        moving->velocity = sb_scale(moving->direction, (moving->next_displacement - moving->displacement) / dt);
     }
     return moved ? sb_walls_restore(sim, error) : SB_OK;
 }
