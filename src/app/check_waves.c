@@ -85,8 +85,45 @@ static double wavelength_of(const sb_scene *scene, const sb_sponge *sponge)
     return 2 * M_PI / sb_wave_number(sponge->period, sponge->depth, scene->fluid.gravity);
 }
 
+static const char *const order_names[] = {"linear", "second-order Stokes", "fifth-order Stokes"};
+
+static void print_initial(const sb_scene *scene)
+{
+    const sb_initial_wave *wave = &scene->wave;
+    const double spacing = scene->resolution, d = wave->depth;
+    if (wave->kind == SB_INITIAL_REGULAR) {
+        const sb_stokes *s = &wave->stokes;
+        printf("  waves at the start: regular, %s\n"
+               "    height %.4g m, wavelength %.4g m, depth %g m, period %.4g s, speed %.4g m/s\n"
+               "    kd %.3g, steepness H/L %.3g, Ursell number H L^2/d^3 %.3g\n"
+               "    %.3g particles per height, %.3g per wavelength\n",
+               order_names[wave->order], s->height, s->length, d, s->length / s->celerity, s->celerity, s->number * d,
+               s->height / s->length, s->height * s->length * s->length / (d * d * d), s->height / spacing,
+               s->length / spacing);
+    }
+    if (wave->kind == SB_INITIAL_COMPONENTS)
+        printf("  waves at the start: a sum of %zu linear waves on %g m, amplitudes together %.4g m\n",
+               wave->component_count, d, sb_initial_crest(wave));
+}
+
+static void put_initial(const sb_scene *scene, sb_json *json)
+{
+    const sb_initial_wave *wave = &scene->wave;
+    const sb_stokes *s = &wave->stokes;
+    if (wave->kind != SB_INITIAL_REGULAR) return;
+    sb_json_open(json, "initial_wave", '{');
+    sb_json_text(json, "theory", order_names[wave->order]);
+    sb_json_number(json, "height_m", s->height);
+    sb_json_number(json, "wavelength_m", s->length);
+    sb_json_number(json, "period_s", s->length / s->celerity);
+    sb_json_number(json, "speed_m_s", s->celerity);
+    sb_json_number(json, "kd", s->number * wave->depth);
+    sb_json_close(json);
+}
+
 void sb_check_waves_text(const sb_scene *scene)
 {
+    print_initial(scene);
     visit_trains(scene, print_train, NULL);
     for (size_t s = 0; s < scene->sponge_count; s++) {
         const sb_sponge *sponge = &scene->sponges[s];
@@ -121,6 +158,7 @@ static void put_train(void *context, const sb_scene *scene, const sb_wavemaker_u
 
 void sb_check_waves_json(const sb_scene *scene, sb_json *json)
 {
+    put_initial(scene, json);
     if (visit_trains(scene, NULL, NULL) > 0) {
         sb_json_open(json, "waves", '[');
         visit_trains(scene, put_train, json);

@@ -8,6 +8,7 @@
 #include "physics/kernel.h"
 #include "physics/regular_wave.h"
 #include "physics/sponge.h"
+#include "physics/stokes.h"
 #include "physics/wave_theory.h"
 #include "physics/wavemaker.h"
 
@@ -44,17 +45,42 @@ typedef struct sb_fluid_box {
     sb_vec3 velocity; /* m/s */
 } sb_fluid_box;
 
-typedef enum sb_initial_wave_kind { SB_INITIAL_NONE, SB_INITIAL_SOLITARY, SB_INITIAL_STANDING } sb_initial_wave_kind;
+typedef enum sb_initial_wave_kind {
+    SB_INITIAL_NONE,
+    SB_INITIAL_SOLITARY,
+    SB_INITIAL_STANDING,
+    SB_INITIAL_REGULAR,
+    SB_INITIAL_COMPONENTS
+} sb_initial_wave_kind;
+typedef enum sb_initial_order { SB_INITIAL_LINEAR, SB_INITIAL_SECOND, SB_INITIAL_FIFTH } sb_initial_order;
+
+/* One linear wave of a sum. */
+typedef struct sb_initial_component {
+    double amplitude, wavelength; /* m */
+    double phase;                 /* degrees, at `position` */
+    int direction;                /* as of the wave */
+} sb_initial_component;
 
 typedef struct sb_initial_wave {
     sb_initial_wave_kind kind;
-    double height;             /* m: solitary wave height H, or standing-wave amplitude */
+    double height;             /* m: wave height H, standing-wave amplitude, twice the largest component's amplitude */
     double depth;              /* m, still-water depth of the wave theory */
     double position;           /* m, x of the crest */
-    double wavelength;         /* m, standing wave only */
+    double wavelength;         /* m, standing and regular waves only */
     int direction;             /* +1 towards +x, -1 towards -x */
     sb_solitary_theory theory; /* solitary wave only */
+    sb_initial_order order;    /* regular waves only */
+    sb_stokes stokes;          /* regular waves only: the wave */
+    size_t component_count;
+    sb_initial_component *components;
 } sb_initial_wave;
+
+/* initial_wave.c: elevation in m above the still level, at a distance (m) along x from the wave's position. */
+double sb_initial_elevation(const sb_initial_wave *wave, double gravity, double ahead);
+/* Velocities in m/s along x and upward, z above the bed of the theory. */
+void sb_initial_velocity(const sb_initial_wave *wave, double gravity, double ahead, double z, double *u, double *w);
+/* Upper bound of the elevation, m. */
+double sb_initial_crest(const sb_initial_wave *wave);
 
 /* Where the surface and velocity of the water at the sides of kind `sea` come from. NONE: still water. */
 typedef enum sb_given_source {

@@ -1,6 +1,6 @@
 /* Push-plates: waves across a basin, which a paddle that is one cannot take, die out before plates that absorb on their
-   own. Their row of columns covers the water, the forces on them are those on one body, the balances close, the state is
-   saved and does not depend on threads. */
+   own. Their row of columns covers the water, the forces on them are those on one body, the balances close, the state
+   is saved and does not depend on threads. */
 #include "../../check.h"
 #include "base/archive.h"
 #include "sim/tank.h"
