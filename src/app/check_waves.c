@@ -34,10 +34,14 @@ static double paddle_reflection(const sb_scene *scene, const sb_wavemaker_use *m
                                    maker->law.depth, scene->fluid.gravity, distance);
 }
 
-static void print_plates(const sb_scene *scene, const sb_wavemaker_use *maker)
+static void print_parts(const sb_scene *scene, const sb_wavemaker_use *maker, double gain)
 {
     sb_plate_row row;
     if (sb_scene_plates(scene, maker, &row) == 0) return;
+    if (row.axis == 2) {
+        printf("    flap about z = %.4g m in %zu rows; height over stroke %.4g\n", row.from, row.count, gain);
+        return;
+    }
     printf("    %zu push-plates of %.4g m along %c, %.3g spacings each\n", row.count,
            (row.to - row.from) / (double)row.count, row.axis == 0 ? 'x' : 'y',
            (row.to - row.from) / (double)row.count / scene->resolution);
@@ -49,7 +53,6 @@ static void print_absorption(const sb_scene *scene, const sb_wavemaker_use *make
     if (isnan(reflection)) return;
     printf("    absorbs within %.3g m of its law; predicted reflection at %.4g s %.2g %%\n", maker->law.reach,
            paddle->kind->facts(paddle->state)->period, 100 * reflection);
-    print_plates(scene, maker);
 }
 
 static void print_train(void *context, const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
@@ -61,6 +64,7 @@ static void print_train(void *context, const sb_scene *scene, const sb_wavemaker
         printf("  absorber %s: waves of %.4g s on %g m, wavelength %.4g m\n", maker->name, f->period, f->depth,
                f->length);
         print_absorption(scene, maker, paddle);
+        print_parts(scene, maker, 0);
         return;
     }
     printf("  waves of %s: %s, %s\n"
@@ -71,6 +75,7 @@ static void print_train(void *context, const sb_scene *scene, const sb_wavemaker
            f->count > 2 ? " at the peak" : "", f->depth, f->length, f->number * f->depth, f->height / f->length,
            f->ursell, f->height / spacing, f->length / spacing, f->travel);
     print_absorption(scene, maker, paddle);
+    print_parts(scene, maker, sb_paddle_gain(maker->law.motion, f->number, f->depth));
 }
 
 /* Reflected over incident amplitude by linear theory. */
@@ -152,7 +157,8 @@ static void put_train(void *context, const sb_scene *scene, const sb_wavemaker_u
     sb_json_number(json, "travel_m", f->travel);
     if (maker->law.absorb) sb_json_number(json, "predicted_reflection", paddle_reflection(scene, maker, paddle));
     sb_plate_row row;
-    if (sb_scene_plates(scene, maker, &row) > 0) sb_json_count(json, "plates", row.count);
+    if (sb_scene_plates(scene, maker, &row) > 0) sb_json_count(json, row.axis == 2 ? "flap_rows" : "plates", row.count);
+    sb_json_number(json, "height_over_stroke", sb_paddle_gain(maker->law.motion, f->number, f->depth));
     sb_json_close(json);
 }
 

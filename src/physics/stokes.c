@@ -56,26 +56,24 @@ static sb_status check(const sb_stokes *wave, sb_error *error)
 {
     const double most = 0.142 * wave->length * tanh(wave->number * wave->depth), d = wave->depth;
     const double ursell = wave->height * wave->length * wave->length / (d * d * d);
-    const double limit = wave->order == 1   ? (double)INFINITY
-                         : wave->order == 2 ? SB_URSELL_LIMIT
-                                            : SB_STOKES_URSELL;
+    const double limit = wave->order == 1 ? (double)INFINITY : wave->order == 2 ? SB_URSELL_LIMIT : SB_STOKES_URSELL;
     if (!(wave->height <= most))
         return sb_fail(error, SB_BAD_INPUT,
                        "a wave of %g m with a length of %g m on %g m breaks, expected a height of at most %.3g m",
                        wave->height, wave->length, d, most);
     if (!(ursell < limit))
-        return sb_fail(error, SB_BAD_INPUT,
-                       "a wave of %g m with a length of %g m on %g m has H L^2/d^3 = %.3g, too long for a Stokes wave of "
-                       "this order, expected less than %.3g",
-                       wave->height, wave->length, d, ursell, limit);
+        return sb_fail(
+            error, SB_BAD_INPUT,
+            "a wave of %g m with a length of %g m on %g m has H L^2/d^3 = %.3g, too long for a Stokes wave of "
+            "this order, expected less than %.3g",
+            wave->height, wave->length, d, ursell, limit);
     return SB_OK;
 }
 
 sb_status sb_stokes_create(int order, double height, double length, double depth, double gravity, sb_stokes *wave,
                            sb_error *error)
 {
-    sb_stokes made = {
-        .order = order, .height = height, .length = length, .depth = depth, .number = 2 * M_PI / length};
+    sb_stokes made = {.order = order, .height = height, .length = length, .depth = depth, .number = 2 * M_PI / length};
     sb_status status = check(&made, error);
     if (status != SB_OK) return status;
     const double k = made.number, kd = fmin(k * depth, DEEP), e = 0.5 * k * height;

@@ -13,15 +13,16 @@ typedef struct sb_stokes {
     double height, length, depth;      /* m, trough to crest; mean depth */
     double number, celerity;           /* 1/m; m/s, relative to water whose mean velocity at a point below is 0 */
     double surface[SB_STOKES_ORDERS];  /* m: elevation = sum of surface[j] cos((j + 1) k x) */
-    double velocity[SB_STOKES_ORDERS]; /* m/s: u = sum of velocity[j] cosh((j + 1) k z)/cosh((j + 1) k d) cos((j + 1) k x) */
+    double velocity[SB_STOKES_ORDERS]; /* m/s: u = sum of velocity[j] cosh((j + 1) k z)/cosh((j + 1) k d) cos((j + 1) k
+                                          x) */
 } sb_stokes;
 
 /* H L^2/d^3 up to which the fifth order is accurate [Fenton 1990]. */
 #define SB_STOKES_URSELL 40.0
 
-/* Finds the wave of a length. All values > 0. SB_BAD_INPUT for a wave that breaks by its steepness [Miche 1944: H = 0.142
-   L tanh kd], or that is too long: beyond SB_STOKES_URSELL, for the second order beyond SB_URSELL_LIMIT; the first order
-   is given for all lengths. */
+/* Finds the wave of a length. All values > 0. SB_BAD_INPUT for a wave that breaks by its steepness [Miche 1944: H =
+   0.142 L tanh kd], or that is too long: beyond SB_STOKES_URSELL, for the second order beyond SB_URSELL_LIMIT; the
+   first order is given for all lengths. */
 sb_status sb_stokes_create(int order, double height, double length, double depth, double gravity, sb_stokes *wave,
                            sb_error *error);
 

@@ -22,10 +22,14 @@ double sb_initial_elevation(const sb_initial_wave *wave, double gravity, double 
     const sb_solitary solitary = {wave->height, wave->depth, gravity, wave->theory};
     double sum = 0;
     switch (wave->kind) {
-    case SB_INITIAL_NONE: break;
-    case SB_INITIAL_SOLITARY: return sb_solitary_elevation(&solitary, wave->direction < 0 ? -ahead : ahead);
-    case SB_INITIAL_STANDING: return sb_standing_elevation(wave->height, wave->wavelength, ahead);
-    case SB_INITIAL_REGULAR: return sb_stokes_elevation(&wave->stokes, sign_of(wave->direction) * ahead);
+    case SB_INITIAL_NONE:
+        break;
+    case SB_INITIAL_SOLITARY:
+        return sb_solitary_elevation(&solitary, wave->direction < 0 ? -ahead : ahead);
+    case SB_INITIAL_STANDING:
+        return sb_standing_elevation(wave->height, wave->wavelength, ahead);
+    case SB_INITIAL_REGULAR:
+        return sb_stokes_elevation(&wave->stokes, sign_of(wave->direction) * ahead);
     case SB_INITIAL_COMPONENTS:
         for (size_t i = 0; i < wave->component_count; i++)
             sum += wave->components[i].amplitude * cos(phase_of(&wave->components[i], ahead));
@@ -51,9 +55,14 @@ void sb_initial_velocity(const sb_initial_wave *wave, double gravity, double ahe
     *u = *w = 0;
     switch (wave->kind) {
     case SB_INITIAL_NONE:
-    case SB_INITIAL_STANDING: return;
-    case SB_INITIAL_SOLITARY: sb_solitary_velocity(&solitary, sign * ahead, fmax(z, 0), u, w); break;
-    case SB_INITIAL_REGULAR: sb_stokes_velocity(&wave->stokes, sign * ahead, z, u, w); break;
+    case SB_INITIAL_STANDING:
+        return;
+    case SB_INITIAL_SOLITARY:
+        sb_solitary_velocity(&solitary, sign * ahead, fmax(z, 0), u, w);
+        break;
+    case SB_INITIAL_REGULAR:
+        sb_stokes_velocity(&wave->stokes, sign * ahead, z, u, w);
+        break;
     case SB_INITIAL_COMPONENTS:
         for (size_t i = 0; i < wave->component_count; i++)
             add_component(&wave->components[i], wave->depth, gravity, ahead, z, u, w);

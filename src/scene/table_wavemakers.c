@@ -8,6 +8,7 @@ static const char *const start_names[] = {"command", NULL};
 static const char *const after_names[] = {"stay", "return", NULL};
 static const char *const lasts_names[] = {"forever", NULL};
 static const char *const theory_names[] = {"auto", "linear", "second-order", "cnoidal", NULL};
+static const char *const motion_names[] = {"piston", "flap", NULL};
 static const char *const spectrum_names[] = {"jonswap", "pierson-moskowitz", NULL};
 
 enum { RETURNS = 1 << 16 };
@@ -66,6 +67,9 @@ static const sb_key keys[] = {
     {.name = "theory", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_wavemaker_use, law.theory), .words = theory_names,
      .applies = SB_WM_THEORY, .only = "regular waves", .fallback = "auto",
      .doc = "Theory of the paddle; `auto`: `second-order` where H L^2/d^3 < 26.3, otherwise `cnoidal`."},
+    {.name = "motion", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_wavemaker_use, law.motion), .words = motion_names,
+     .applies = SB_WM_TRAIN, .only = "wave trains", .fallback = "piston",
+     .doc = "`piston`: the same motion at all heights; `flap`: a box that turns about the bed, in rows of 2 spacings."},
     {.name = "spectrum", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_wavemaker_use, law.spectrum), .words = spectrum_names,
      .applies = SB_WM_SPECTRUM, .only = "irregular and focused", .fallback = "jonswap", .doc = "Form of the spectrum."},
     {.name = "gamma", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.gamma), .min = 1, .max = 20,

@@ -16,7 +16,8 @@ static void residuals(int order, double kd, double steepness, double *kinematic,
     const double k = 2.3, length = 2 * M_PI / k, depth = kd / k;
     sb_stokes wave;
     sb_error error = {0};
-    if (sb_stokes_create(order, 2 * steepness / k, length, depth, g, &wave, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sb_stokes_create(order, 2 * steepness / k, length, depth, g, &wave, &error) != SB_OK)
+        fail_msg("%s", error.text);
     double head[PHASES], mean = 0;
     *kinematic = *dynamic = 0;
     for (int i = 0; i < PHASES; i++) {

@@ -181,6 +181,10 @@ static sb_status add_parts(const sb_scene *scene, const sb_body *from, sb_model 
         body->plates = row.count;
         body->report = from->report && k == 0;
         body->moment_point = middle;
+        if (row.axis == 2) { /* the motion grows from the hinge to the still level, and beyond */
+            const double above = ((double)k + 0.5) * (row.to - row.from) / (double)row.count;
+            body->held = 1 - above / (scene->sea.level - row.from);
+        }
     }
     return status;
 }

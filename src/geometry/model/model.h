@@ -24,9 +24,10 @@ typedef struct sb_model_body {
     double thin;  /* m, its thickness if that is less than the support radius; else 0 */
     double gap;   /* m, the narrowest gap before its surface if walls do not resolve it; else 0 */
     sb_mesh mesh; /* scene coordinates at t = 0; empty for domain sides */
-    /* Of a paddle that is divided into push-plates: its plates follow each other. The first one has the paddle's name,
-       and the forces on all. 0, 0: a body that is not divided. */
+    /* Of a paddle that is divided into push-plates, or a flap's rows: its plates follow each other. The first one has
+       the paddle's name, and the forces on all. 0, 0: a body that is not divided. */
     size_t plate, plates;
+    double held; /* share of the motion that it does not make: of the rows of a flap; else 0 */
 } sb_model_body;
 
 /* The ground within `width` of a side through which a given sea comes in: cells of `step` inwards and `pitch` along the

@@ -20,6 +20,9 @@ typedef struct sb_model_space {
 sb_status sb_model_space_create(const sb_model *model, const sb_scene *domain_of, sb_model_space *space,
                                 sb_error *error);
 void sb_model_space_free(sb_model_space *space);
+/* A half-width of sections that is large compared with the scene, so that a section's winding number is that of an
+   infinite strip, m. */
+double sb_model_strip_width(const sb_model *model);
 
 /* Warns if solids at one periodic side do not continue at the opposite side. */
 sb_status sb_model_check_sides(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);

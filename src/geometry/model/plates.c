@@ -1,5 +1,5 @@
-/* Paddles that are divided into push-plates: each plate is a body of the model. The boundary particles are those of the
-   undivided paddle, so that there are none between plates. */
+/* Paddles that are divided into push-plates, or into the rows of a flap: each plate is a body of the model. The
+   boundary particles are those of the undivided paddle, so that there are none between plates. */
 #include "base/memory.h"
 #include "geometry/model/parts.h"
 
@@ -12,7 +12,7 @@ size_t sb_model_whole(const sb_model *model, size_t body)
 
 static double *along(sb_vec3 *v, int axis)
 {
-    return axis == 0 ? &v->x : &v->y;
+    return axis == 0 ? &v->x : axis == 1 ? &v->y : &v->z;
 }
 
 sb_body sb_model_plate(const sb_body *from, const sb_plate_row *row, size_t plate)
@@ -29,8 +29,14 @@ typedef struct whole {
     size_t body; /* first plate */
     sb_mesh *mesh;
     size_t meshes;
+    sb_mesh section; /* in 2D, of the mesh */
     sb_solid *solid;
 } whole;
+
+static const sb_mesh *surface_of(const whole *w)
+{
+    return w->section.triangle_count > 0 ? &w->section : w->mesh;
+}
 
 struct sb_wholes {
     size_t count;
@@ -42,7 +48,9 @@ static sb_status make_whole(const sb_scene *scene, const sb_model *model, size_t
     made->body = body;
     sb_status status = sb_mesh_from_body(&scene->bodies[model->bodies[body].source], scene->resolution, &made->mesh,
                                          &made->meshes, error);
-    if (status == SB_OK) status = sb_solid_create(made->mesh, SB_ROLE_SOLID, &made->solid, error);
+    if (status == SB_OK && model->dimensions == 2)
+        status = sb_section_mesh(made->mesh, sb_model_strip_width(model), &made->section, error);
+    if (status == SB_OK) status = sb_solid_create(surface_of(made), SB_ROLE_SOLID, &made->solid, error);
     return status;
 }
 
@@ -71,6 +79,7 @@ void sb_wholes_destroy(sb_wholes *wholes)
     for (size_t w = 0; wholes && w < wholes->count; w++) {
         for (size_t m = 0; m < wholes->wholes[w].meshes; m++) sb_mesh_free(&wholes->wholes[w].mesh[m]);
         sb_free(wholes->wholes[w].mesh);
+        sb_mesh_free(&wholes->wholes[w].section);
         sb_solid_destroy(wholes->wholes[w].solid);
     }
     if (wholes) sb_free(wholes->wholes);
@@ -82,7 +91,7 @@ bool sb_wholes_source(const sb_wholes *wholes, const sb_model *model, size_t bod
     if (model->bodies[body].plate > 0) return false;
     for (size_t w = 0; wholes && w < wholes->count; w++)
         if (wholes->wholes[w].body == body) {
-            source->mesh = wholes->wholes[w].mesh;
+            source->mesh = surface_of(&wholes->wholes[w]);
             source->solid = wholes->wholes[w].solid;
         }
     return true;

@@ -149,6 +149,7 @@ sb_status sb_paddles_create(sb_sim *sim, sb_error *error)
         const sb_wavemaker_use *use = &sim->scene->wavemakers[model->bodies[b].wavemaker];
         sb_moving_body *moving = &sim->walls.moving[sim->walls.moving_count];
         moving->direction = use->direction;
+        moving->share = 1 - model->bodies[b].held;
         moving->commanded = isinf(use->law.start);
         sb_status status = sb_paddle_create(&use->law, &moving->paddle, error);
         if (status != SB_OK) return status;
@@ -241,8 +242,8 @@ sb_status sb_stage_walls(sb_sim *sim, sb_error *error)
     bool moved = false;
     for (size_t m = 0; m < sim->walls.moving_count; m++) {
         sb_moving_body *moving = &sim->walls.moving[m];
-        double here = sim->policy->runs ? sb_paddle_displacement(&moving->paddle, time) : 0;
-        double there = sim->policy->runs ? sb_paddle_displacement(&moving->paddle, time + dt) : 0;
+        double here = sim->policy->runs ? moving->share * sb_paddle_displacement(&moving->paddle, time) : 0;
+        double there = sim->policy->runs ? moving->share * sb_paddle_displacement(&moving->paddle, time + dt) : 0;
         if (moving->absorber) here += moving->absorber->offset;
         moved |= here != moving->displacement;
         moving->displacement = here;

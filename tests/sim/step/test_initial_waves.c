@@ -100,9 +100,10 @@ static void regular_waves_travel(void **state)
         const double theory = t.scene.wave.stokes.surface[0], made = cabs(harmonic(t.sim));
         follow(&t, 3, &rate, &kept);
         const double speed = (k == 0 ? -rate : rate) / t.scene.wave.stokes.celerity;
-        printf("spacing %g m: first harmonic %.4g m of %.4g m, speed %.4f of the theory's, %.3f of the height kept from "
-               "the first to the third period\n",
-               cases[k].spacing, made, theory, speed, kept);
+        printf(
+            "spacing %g m: first harmonic %.4g m of %.4g m, speed %.4f of the theory's, %.3f of the height kept from "
+            "the first to the third period\n",
+            cases[k].spacing, made, theory, speed, kept);
         assert_true(fabs(made - theory) < 0.02 * theory);
         assert_true(fabs(speed - 1) < cases[k].speed);
         assert_true(kept > cases[k].kept && kept < 1.02);
@@ -116,7 +117,8 @@ static void sums_have_their_parts(void **state)
     (void)state;
     tank2 t;
     make(&t, 0.05,
-         "kind: components, components: [{amplitude: 0.05, wavelength: 6.283185307179586}, {amplitude: 0.03, wavelength: "
+         "kind: components, components: [{amplitude: 0.05, wavelength: 6.283185307179586}, {amplitude: 0.03, "
+         "wavelength: "
          "3.141592653589793, phase: 90, direction: -1}]",
          false);
     const double omega[] = {sqrt(9.81 * tanh(1)), sqrt(9.81 * 2 * tanh(2))};
@@ -124,8 +126,10 @@ static void sums_have_their_parts(void **state)
     for (size_t i = 0; i < t.model.fluid_count; i++) {
         const sb_vec3 at = t.model.fluid_position[i], v = t.model.fluid_velocity[i];
         const double one = at.x - 1, two = -2 * (at.x - 1) + 0.5 * M_PI, z = fmin(at.z, 1);
-        const double u = 0.05 * omega[0] * cosh(z) / sinh(1) * cos(one) - 0.03 * omega[1] * cosh(2 * z) / sinh(2) * cos(two);
-        const double w = 0.05 * omega[0] * sinh(z) / sinh(1) * sin(one) + 0.03 * omega[1] * sinh(2 * z) / sinh(2) * sin(two);
+        const double u =
+            0.05 * omega[0] * cosh(z) / sinh(1) * cos(one) - 0.03 * omega[1] * cosh(2 * z) / sinh(2) * cos(two);
+        const double w =
+            0.05 * omega[0] * sinh(z) / sinh(1) * sin(one) + 0.03 * omega[1] * sinh(2 * z) / sinh(2) * sin(two);
         worst = fmax(worst, hypot(v.x - u, v.z - w));
         if (fabs(at.x - round(at.x)) < 0.03) top[(int)round(at.x)] = fmax(top[(int)round(at.x)], at.z);
     }
