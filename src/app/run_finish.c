@@ -222,6 +222,11 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         sb_wave_table_write(r->directory, r->scene, &waves, &reason) != SB_OK)
         sb_run_warn(r, "waves.csv: %s", reason.text);
     summary.waves = waves;
+    sb_overtopping_rate *rates = NULL;
+    if (r->measure && sb_overtopping_wanted(r->scene) &&
+        sb_overtopping_rates(r->directory, r->scene, &rates, &reason) != SB_OK)
+        sb_run_warn(r, "overtopping.csv: %s", reason.text);
+    summary.rates = rates;
     sb_status found = sb_run_path(r, "summary.json", path, &reason);
     if (r->measure &&
         sb_measure_reflections(r->measure, &summary.reflections, &summary.reflection_count, &reason) != SB_OK)
@@ -229,6 +234,7 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
     if (found == SB_OK) found = sb_summary_write(path, &summary, &reason);
     sb_free(absorptions);
     sb_free(waves);
+    sb_free(rates);
     /* An earlier failure stays the reason. This failure is still reported, because the summary on disk says "running".
      */
     if (found != SB_OK && *status == SB_FAILED) sb_run_warn(r, "%s", reason.text);

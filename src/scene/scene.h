@@ -287,6 +287,13 @@ typedef struct sb_probe {
     sb_vec3 at;
     double radius; /* 0: support radius */
 } sb_probe;
+/* What the rate of overtopping at a plane is compared with. */
+typedef struct sb_eurotop_settings {
+    double height;        /* m, H_m0 of the incoming waves; 0: it is not compared */
+    double crest;         /* m, z of the structure's crest */
+    double slope, period; /* tangent of its slope, 0: vertical; s, T_m-1,0 of the waves, for slopes */
+    double start;         /* s, from which the rate is the mean */
+} sb_eurotop_settings;
 /* A vertical plane from (ax, ay) to (bx, by), z_min..z_max. Flow to the right of a->b is positive. */
 typedef struct sb_flow_plane {
     char name[SB_NAME_MAX];
@@ -294,6 +301,7 @@ typedef struct sb_flow_plane {
     bool record;            /* surface and velocities along it are written to record.csv */
     double record_interval; /* s between rows, a multiple of the interval; 0: not recorded */
     double record_spacing;  /* m between points along the plane; 0: not recorded, or 2D */
+    sb_eurotop_settings eurotop;
 } sb_flow_plane;
 /* A line from (ax, ay) to (bx, by). Run-up is the highest z of connected water within one spacing of it. */
 typedef struct sb_runup_line {
