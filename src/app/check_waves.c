@@ -34,6 +34,19 @@ static double paddle_reflection(const sb_scene *scene, const sb_wavemaker_use *m
                                    maker->law.depth, scene->fluid.gravity, distance);
 }
 
+static void print_parts(const sb_scene *scene, const sb_wavemaker_use *maker, double gain)
+{
+    sb_plate_row row;
+    if (sb_scene_plates(scene, maker, &row) == 0) return;
+    if (row.axis == 2) {
+        printf("    flap about z = %.4g m in %zu rows; height over stroke %.4g\n", row.from, row.count, gain);
+        return;
+    }
+    printf("    %zu push-plates of %.4g m along %c, %.3g spacings each\n", row.count,
+           (row.to - row.from) / (double)row.count, row.axis == 0 ? 'x' : 'y',
+           (row.to - row.from) / (double)row.count / scene->resolution);
+}
+
 static void print_absorption(const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
 {
     const double reflection = paddle_reflection(scene, maker, paddle);
@@ -51,6 +64,7 @@ static void print_train(void *context, const sb_scene *scene, const sb_wavemaker
         printf("  absorber %s: waves of %.4g s on %g m, wavelength %.4g m\n", maker->name, f->period, f->depth,
                f->length);
         print_absorption(scene, maker, paddle);
+        print_parts(scene, maker, 0);
         return;
     }
     printf("  waves of %s: %s, %s\n"
@@ -61,6 +75,7 @@ static void print_train(void *context, const sb_scene *scene, const sb_wavemaker
            f->count > 2 ? " at the peak" : "", f->depth, f->length, f->number * f->depth, f->height / f->length,
            f->ursell, f->height / spacing, f->length / spacing, f->travel);
     print_absorption(scene, maker, paddle);
+    print_parts(scene, maker, sb_paddle_gain(maker->law.motion, f->number, f->depth));
 }
 
 /* Reflected over incident amplitude by linear theory. */
@@ -75,8 +90,45 @@ static double wavelength_of(const sb_scene *scene, const sb_sponge *sponge)
     return 2 * M_PI / sb_wave_number(sponge->period, sponge->depth, scene->fluid.gravity);
 }
 
+static const char *const order_names[] = {"linear", "second-order Stokes", "fifth-order Stokes"};
+
+static void print_initial(const sb_scene *scene)
+{
+    const sb_initial_wave *wave = &scene->wave;
+    const double spacing = scene->resolution, d = wave->depth;
+    if (wave->kind == SB_INITIAL_REGULAR) {
+        const sb_stokes *s = &wave->stokes;
+        printf("  waves at the start: regular, %s\n"
+               "    height %.4g m, wavelength %.4g m, depth %g m, period %.4g s, speed %.4g m/s\n"
+               "    kd %.3g, steepness H/L %.3g, Ursell number H L^2/d^3 %.3g\n"
+               "    %.3g particles per height, %.3g per wavelength\n",
+               order_names[wave->order], s->height, s->length, d, s->length / s->celerity, s->celerity, s->number * d,
+               s->height / s->length, s->height * s->length * s->length / (d * d * d), s->height / spacing,
+               s->length / spacing);
+    }
+    if (wave->kind == SB_INITIAL_COMPONENTS)
+        printf("  waves at the start: a sum of %zu linear waves on %g m, amplitudes together %.4g m\n",
+               wave->component_count, d, sb_initial_crest(wave));
+}
+
+static void put_initial(const sb_scene *scene, sb_json *json)
+{
+    const sb_initial_wave *wave = &scene->wave;
+    const sb_stokes *s = &wave->stokes;
+    if (wave->kind != SB_INITIAL_REGULAR) return;
+    sb_json_open(json, "initial_wave", '{');
+    sb_json_text(json, "theory", order_names[wave->order]);
+    sb_json_number(json, "height_m", s->height);
+    sb_json_number(json, "wavelength_m", s->length);
+    sb_json_number(json, "period_s", s->length / s->celerity);
+    sb_json_number(json, "speed_m_s", s->celerity);
+    sb_json_number(json, "kd", s->number * wave->depth);
+    sb_json_close(json);
+}
+
 void sb_check_waves_text(const sb_scene *scene)
 {
+    print_initial(scene);
     visit_trains(scene, print_train, NULL);
     for (size_t s = 0; s < scene->sponge_count; s++) {
         const sb_sponge *sponge = &scene->sponges[s];
@@ -104,11 +156,15 @@ static void put_train(void *context, const sb_scene *scene, const sb_wavemaker_u
     sb_json_number(json, "particles_per_wavelength", f->length / scene->resolution);
     sb_json_number(json, "travel_m", f->travel);
     if (maker->law.absorb) sb_json_number(json, "predicted_reflection", paddle_reflection(scene, maker, paddle));
+    sb_plate_row row;
+    if (sb_scene_plates(scene, maker, &row) > 0) sb_json_count(json, row.axis == 2 ? "flap_rows" : "plates", row.count);
+    sb_json_number(json, "height_over_stroke", sb_paddle_gain(maker->law.motion, f->number, f->depth));
     sb_json_close(json);
 }
 
 void sb_check_waves_json(const sb_scene *scene, sb_json *json)
 {
+    put_initial(scene, json);
     if (visit_trains(scene, NULL, NULL) > 0) {
         sb_json_open(json, "waves", '[');
         visit_trains(scene, put_train, json);

@@ -115,6 +115,7 @@ static void mark_bodies(drawing *d, bool names)
         if (!visible_box(d, body, &low, &high)) continue;
         const sb_vec3 middle = sb_scale(sb_add(low, high), 0.5);
         const bool ground = body->role == SB_ROLE_TERRAIN;
+        if (body->plate > 0) continue;
         if (body->wavemaker >= 0) mark_wavemaker(d, body, middle);
         if (!names) continue;
         name(d, ground ? ground_place(d, &body->mesh, low, high) : sb_vec(middle.x, middle.y, high.z), body_color,

@@ -167,6 +167,9 @@ static sb_absorption *find_absorptions(run *r)
         if (!all) all = sb_alloc(r->model.body_count, sizeof *all);
         if (!all) return NULL;
         all[b] = one;
+        sb_runlog_event(r->log, "absorber",
+                        "%s: %.4g m from its law at the end, at most %.4g m; %llu steps at its reach",
+                        r->model.bodies[b].name, one.offset, one.farthest, (unsigned long long)one.limited);
         if (one.limited > 0)
             sb_run_warn(r,
                         "the absorbing paddle \"%.63s\" was stopped at its reach in %llu steps, in which it reflected "
@@ -219,6 +222,11 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         sb_wave_table_write(r->directory, r->scene, &waves, &reason) != SB_OK)
         sb_run_warn(r, "waves.csv: %s", reason.text);
     summary.waves = waves;
+    sb_overtopping_rate *rates = NULL;
+    if (r->measure && sb_overtopping_wanted(r->scene) &&
+        sb_overtopping_rates(r->directory, r->scene, &rates, &reason) != SB_OK)
+        sb_run_warn(r, "overtopping.csv: %s", reason.text);
+    summary.rates = rates;
     sb_status found = sb_run_path(r, "summary.json", path, &reason);
     if (r->measure &&
         sb_measure_reflections(r->measure, &summary.reflections, &summary.reflection_count, &reason) != SB_OK)
@@ -226,6 +234,7 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
     if (found == SB_OK) found = sb_summary_write(path, &summary, &reason);
     sb_free(absorptions);
     sb_free(waves);
+    sb_free(rates);
     /* An earlier failure stays the reason. This failure is still reported, because the summary on disk says "running".
      */
     if (found != SB_OK && *status == SB_FAILED) sb_run_warn(r, "%s", reason.text);

@@ -82,6 +82,10 @@ void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *con
                  wave->height, wave->height / wave->depth, names[wave->theory], good);
         visit(context, text);
     }
+    const bool train = wave->kind == SB_INITIAL_REGULAR || wave->kind == SB_INITIAL_COMPONENTS;
+    if (train && !sb_scene_repeats(scene, 0))
+        visit(context, "water.wave: the sides along x are not periodic: the waves are reflected or end there, expected "
+                       "sides of kind periodic");
     warn_of_reflections(scene, visit, context);
     sb_tension_warnings(scene, visit, context);
     if (scene->measure.interval > scene->duration) {

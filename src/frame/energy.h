@@ -42,7 +42,9 @@ typedef struct sb_crossing {
 typedef struct sb_absorption {
     bool absorbs;
     double offset, farthest; /* m, distance from its law: at the end of the step, and the largest so far */
-    uint64_t limited;        /* steps in which its reach stopped it */
+    uint64_t limited;        /* steps in which its reach stopped it; of plates, their sum */
+    uint64_t plates;         /* push-plates, of which offset is the mean; 0: the paddle is one */
+    double apart;            /* m, between the farthest and the nearest plate at the end of the step */
 } sb_absorption;
 
 #endif

@@ -84,6 +84,10 @@ static void put_absorptions(sb_json *json, const sb_summary *s)
         sb_json_number(json, "offset_m", a->offset);
         sb_json_number(json, "farthest_m", a->farthest);
         sb_json_count(json, "limited_steps", a->limited);
+        if (a->plates > 0) {
+            sb_json_count(json, "plates", a->plates);
+            sb_json_number(json, "apart_m", a->apart);
+        }
         sb_json_close(json);
     }
     if (open) sb_json_close(json);
@@ -102,6 +106,26 @@ static void put_waves(sb_json *json, const sb_summary *s)
         sb_json_number(json, "highest_m", h->highest);
         sb_json_number(json, "mean_period_s", h->period);
         sb_json_number(json, "spectral_height_m", h->spectral);
+        sb_json_close(json);
+    }
+    sb_json_close(json);
+}
+
+static void put_rates(sb_json *json, const sb_summary *s)
+{
+    sb_json_open(json, "overtopping", '[');
+    for (size_t p = 0; p < s->scene->measure.plane_count; p++) {
+        const sb_flow_plane *plane = &s->scene->measure.planes[p];
+        const sb_overtopping_rate *r = &s->rates[p];
+        if (!(plane->eurotop.height > 0)) continue;
+        sb_json_open(json, NULL, '{');
+        sb_json_text(json, "plane", plane->name);
+        sb_json_number(json, "from_s", r->from);
+        sb_json_number(json, "to_s", r->to);
+        sb_json_number(json, "rate_m2_s", r->rate);
+        sb_json_number(json, "eurotop_m2_s", r->formula);
+        sb_json_number(json, "freeboard_m", r->freeboard);
+        sb_json_number(json, "height_m", plane->eurotop.height);
         sb_json_close(json);
     }
     sb_json_close(json);
@@ -207,6 +231,7 @@ static void put_all(sb_json *json, const sb_summary *s)
     put_bodies(json, s);
     put_absorptions(json, s);
     if (s->waves) put_waves(json, s);
+    if (s->rates) put_rates(json, s);
     if (s->reflection_count > 0) put_reflections(json, s);
     sb_summary_put_energy(json, "energy_start", &s->first);
     sb_summary_put_energy(json, "energy_end", &s->last);

@@ -203,9 +203,8 @@ static void put_water(FILE *out, const sb_scene *scene)
     }
     if (scene->wave.kind != SB_INITIAL_NONE) {
         begin(out, "Initial wave");
-        sb_html_put(out, "%s, height %g m, depth %g m",
-                    scene->wave.kind == SB_INITIAL_SOLITARY ? "solitary" : "standing", scene->wave.height,
-                    scene->wave.depth);
+        static const char *const kinds[] = {"none", "solitary", "standing", "regular", "sum of waves"};
+        sb_html_put(out, "%s, height %g m, depth %g m", kinds[scene->wave.kind], scene->wave.height, scene->wave.depth);
         finish(out);
     }
     begin(out, "Fluid");

@@ -31,6 +31,12 @@ sb_status sb_reader_interval(sb_reader *reader, const sb_yaml *map, const char *
 /* Refuses the name of a body that the scene does not have, and names the most similar one. */
 sb_status sb_reader_no_body(sb_reader *reader, const sb_yaml *map, const char *key, const char *name);
 
+/* plates.c: refuses push-plates that cannot be made for a wave maker. */
+sb_status sb_plates_check(sb_reader *reader, const sb_yaml *map, const sb_wavemaker_use *use);
+
+/* initial_wave.c: prepares the wave, and refuses one that cannot be or does not fit a periodic domain. */
+sb_status sb_initial_wave_finish(sb_reader *reader, const sb_yaml *map, sb_initial_wave *wave);
+
 /* Applies --set KEY=VALUE to the tree. */
 sb_status sb_override_apply(sb_yaml *root, const sb_override *override, sb_error *error);
 

@@ -8,6 +8,7 @@
 #include "physics/kernel.h"
 #include "physics/regular_wave.h"
 #include "physics/sponge.h"
+#include "physics/stokes.h"
 #include "physics/wave_theory.h"
 #include "physics/wavemaker.h"
 
@@ -45,17 +46,42 @@ typedef struct sb_fluid_box {
     sb_vec3 velocity; /* m/s */
 } sb_fluid_box;
 
-typedef enum sb_initial_wave_kind { SB_INITIAL_NONE, SB_INITIAL_SOLITARY, SB_INITIAL_STANDING } sb_initial_wave_kind;
+typedef enum sb_initial_wave_kind {
+    SB_INITIAL_NONE,
+    SB_INITIAL_SOLITARY,
+    SB_INITIAL_STANDING,
+    SB_INITIAL_REGULAR,
+    SB_INITIAL_COMPONENTS
+} sb_initial_wave_kind;
+typedef enum sb_initial_order { SB_INITIAL_LINEAR, SB_INITIAL_SECOND, SB_INITIAL_FIFTH } sb_initial_order;
+
+/* One linear wave of a sum. */
+typedef struct sb_initial_component {
+    double amplitude, wavelength; /* m */
+    double phase;                 /* degrees, at `position` */
+    int direction;                /* as of the wave */
+} sb_initial_component;
 
 typedef struct sb_initial_wave {
     sb_initial_wave_kind kind;
-    double height;             /* m: solitary wave height H, or standing-wave amplitude */
+    double height;             /* m: wave height H, standing-wave amplitude, twice the largest component's amplitude */
     double depth;              /* m, still-water depth of the wave theory */
     double position;           /* m, x of the crest */
-    double wavelength;         /* m, standing wave only */
+    double wavelength;         /* m, standing and regular waves only */
     int direction;             /* +1 towards +x, -1 towards -x */
     sb_solitary_theory theory; /* solitary wave only */
+    sb_initial_order order;    /* regular waves only */
+    sb_stokes stokes;          /* regular waves only: the wave */
+    size_t component_count;
+    sb_initial_component *components;
 } sb_initial_wave;
+
+/* initial_wave.c: elevation in m above the still level, at a distance (m) along x from the wave's position. */
+double sb_initial_elevation(const sb_initial_wave *wave, double gravity, double ahead);
+/* Velocities in m/s along x and upward, z above the bed of the theory. */
+void sb_initial_velocity(const sb_initial_wave *wave, double gravity, double ahead, double z, double *u, double *w);
+/* Upper bound of the elevation, m. */
+double sb_initial_crest(const sb_initial_wave *wave);
 
 /* Where the surface and velocity of the water at the sides of kind `sea` come from. NONE: still water. */
 typedef enum sb_given_source {
@@ -230,12 +256,18 @@ typedef struct sb_body {
     double width, length;  /* plane: horizontal extent, and extent perpendicular to it */
 } sb_body;
 
+/* Push-plates side by side, into which an absorbing paddle is divided. */
+typedef struct sb_plate_settings {
+    double width; /* m, about that of each; 0: the paddle is one */
+} sb_plate_settings;
+
 /* A body's motion along `direction`: the law's displacement(t - start). */
 typedef struct sb_wavemaker_use {
     char name[SB_NAME_MAX];
     char body[SB_NAME_MAX];
     sb_vec3 direction;           /* unit */
     sb_wavemaker_parameters law; /* kind, height, depth, stroke, ..., motion after the stroke */
+    sb_plate_settings plates;
 } sb_wavemaker_use;
 
 /* A zone in which water is slowed down. */
@@ -265,6 +297,13 @@ typedef struct sb_probe {
     sb_vec3 at;
     double radius; /* 0: support radius */
 } sb_probe;
+/* What the rate of overtopping at a plane is compared with. */
+typedef struct sb_eurotop_settings {
+    double height;        /* m, H_m0 of the incoming waves; 0: it is not compared */
+    double crest;         /* m, z of the structure's crest */
+    double slope, period; /* tangent of its slope, 0: vertical; s, T_m-1,0 of the waves, for slopes */
+    double start;         /* s, from which the rate is the mean */
+} sb_eurotop_settings;
 /* A vertical plane from (ax, ay) to (bx, by), z_min..z_max. Flow to the right of a->b is positive. */
 typedef struct sb_flow_plane {
     char name[SB_NAME_MAX];
@@ -272,6 +311,7 @@ typedef struct sb_flow_plane {
     bool record;            /* surface and velocities along it are written to record.csv */
     double record_interval; /* s between rows, a multiple of the interval; 0: not recorded */
     double record_spacing;  /* m between points along the plane; 0: not recorded, or 2D */
+    sb_eurotop_settings eurotop;
 } sb_flow_plane;
 /* A line from (ax, ay) to (bx, by). Run-up is the highest z of connected water within one spacing of it. */
 typedef struct sb_runup_line {
@@ -542,6 +582,16 @@ static inline bool sb_scene_repeats(const sb_scene *scene, int axis)
 
 /* Whether a body may have this name. The names of a split mesh are known only when its file is read. */
 bool sb_scene_may_have_body(const sb_scene *scene, const char *name);
+
+/* The parts of a paddle: push-plates side by side, or the rows of a flap above each other. `count` of equal width from
+   `from` to `to` (m) along an axis, 0: x, 1: y, 2: z. Of a flap `from` is the height of its hinge. */
+typedef struct sb_plate_row {
+    int axis;
+    double from, to;
+    size_t count;
+} sb_plate_row;
+/* Finds the parts of a wave maker's body, within the domain. Returns their number, 0: the paddle is one. */
+size_t sb_scene_plates(const sb_scene *scene, const sb_wavemaker_use *use, sb_plate_row *row);
 
 /* Index of the gauge of that name; gauge_count if there is none. */
 size_t sb_scene_gauge(const sb_scene *scene, const char *name);

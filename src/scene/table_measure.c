@@ -80,6 +80,24 @@ static unsigned plane_variant(const void *item, const sb_yaml *map)
 }
 
 /* clang-format off */
+static const sb_key eurotop_keys[] = {
+    {.name = "height", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, height), .unit = "m",
+     SB_KEY_NOT_NEGATIVE, .fallback = "0",
+     .doc = "Significant height H_m0 of the incoming waves at the structure's toe; 0: the rate is not compared."},
+    {.name = "crest", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, crest), .unit = "m", SB_KEY_ANY,
+     .derived = "z_min of the plane", .doc = "z of the structure's crest, above water.level."},
+    {.name = "slope", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, slope), SB_KEY_NOT_NEGATIVE,
+     .fallback = "0", .doc = "Tangent of the structure's smooth slope; 0: a vertical wall."},
+    {.name = "period", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, period), .unit = "s",
+     SB_KEY_NOT_NEGATIVE, .fallback = "0", .doc = "Spectral period T_m-1,0 of the waves; needed for a slope."},
+    {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, start), .unit = "s",
+     SB_KEY_NOT_NEGATIVE, .fallback = "0", .doc = "Time from which the rate is the mean."},
+};
+/* clang-format on */
+
+static const sb_table eurotop_table = {SB_KEY_ROWS(eurotop_keys), .size = sizeof(sb_eurotop_settings)};
+
+/* clang-format off */
 static const sb_key plane_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_flow_plane, name), .flags = SB_KEY_REQUIRED,
      .doc = "Unique name of the plane."},
@@ -92,6 +110,8 @@ static const sb_key plane_keys[] = {
      SB_KEY_ANY, .derived = "z of domain.min", .doc = "Lower edge of the plane."},
     {.name = "z_max", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_flow_plane, z_max), .unit = "m",
      SB_KEY_ANY, .derived = "z of domain.max", .doc = "Upper edge of the plane."},
+    {.name = "eurotop", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_flow_plane, eurotop), .table = &eurotop_table,
+     .doc = "Compares the mean rate of overtopping with EurOtop 2018, in `summary.json`."},
     {.name = "record", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_flow_plane, record), .fallback = "false",
      .doc = "Whether surface and velocities over depth along the plane are written to `record.csv`, for `sea.source: "
             "record`."},
@@ -132,6 +152,28 @@ static void flatten_plane(const sb_yaml *map, sb_flow_plane *plane)
     plane->by = 0.5;
 }
 
+static sb_status finish_eurotop(sb_reader *reader, const sb_yaml *map, sb_flow_plane *plane)
+{
+    const sb_yaml *block = sb_yaml_child(map, "eurotop");
+    sb_eurotop_settings *e = &plane->eurotop;
+    const sb_sea *sea = &reader->scene->sea;
+    if (!block) return SB_OK;
+    if (!sb_yaml_child(block, "crest")) e->crest = plane->z_min;
+    if (!(e->height > 0))
+        return sb_reader_fail(reader, map, "eurotop",
+                              "height is missing, expected H_m0 of the incoming waves in metres");
+    if (!sea->present)
+        return sb_reader_fail(reader, map, "eurotop", "the freeboard is not known, expected water.level");
+    if (!(e->crest >= sea->level))
+        return sb_reader_fail(reader, map, "eurotop",
+                              "a crest at %g m is below the still water at %g m, expected one above it", e->crest,
+                              sea->level);
+    if (e->slope > 0 && !(e->period > 0))
+        return sb_reader_fail(reader, map, "eurotop",
+                              "period is missing, expected T_m-1,0 of the waves in s for a slope");
+    return SB_OK;
+}
+
 static sb_status finish_plane(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_flow_plane *plane = item;
@@ -151,7 +193,8 @@ static sb_status finish_plane(sb_reader *reader, const sb_yaml *map, void *item)
     if (disjoint(plane->z_min, plane->z_max, scene->domain.min.z, scene->domain.max.z))
         return refuse_outside(reader, map, sb_yaml_child(map, "z_min") ? "z_min" : "z_max");
     if (!meets_domain(scene, plane->ax, plane->ay, plane->bx, plane->by)) return refuse_outside(reader, map, "from");
-    return plane->record ? finish_record(reader, map, plane) : SB_OK;
+    sb_status status = finish_eurotop(reader, map, plane);
+    return status == SB_OK && plane->record ? finish_record(reader, map, plane) : status;
 }
 
 static const sb_table plane_table = {SB_KEY_ROWS(plane_keys), .size = sizeof(sb_flow_plane), .variant = plane_variant,

@@ -131,6 +131,9 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
         o->x_max = domain->max.x;
         o->y_max = domain->max.y;
     }
+    if (o->wave.kind == SB_INITIAL_REGULAR || o->wave.kind == SB_INITIAL_COMPONENTS)
+        return sb_reader_fail(reader, map, "wave",
+                              "regular waves and components are for particles, expected solitary or standing");
     sb_status status = check_extent(reader, map, 'x', o->x_max - o->x_min, o->cell);
     if (status == SB_OK && reader->scene->dimensions == 3)
         status = check_extent(reader, map, 'y', o->y_max - o->y_min, o->cell);

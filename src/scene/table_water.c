@@ -60,8 +60,29 @@ static sb_status finish_box(sb_reader *reader, const sb_yaml *map, void *item)
 static const sb_table box_table = {SB_KEY_ROWS(box_keys), .size = sizeof(sb_fluid_box), .finish = finish_box};
 
 static const char *const theory_names[] = {"third-order", "boussinesq", "serre", NULL};
-static const char *const wave_names[] = {"none", "solitary", "standing", NULL};
-enum { SOLITARY = 1 << SB_INITIAL_SOLITARY, STANDING = 1 << SB_INITIAL_STANDING };
+static const char *const wave_names[] = {"none", "solitary", "standing", "regular", "components", NULL};
+static const char *const order_names[] = {"linear", "second-order", "fifth-order", NULL};
+enum {
+    SOLITARY = 1 << SB_INITIAL_SOLITARY,
+    STANDING = 1 << SB_INITIAL_STANDING,
+    REGULAR = 1 << SB_INITIAL_REGULAR,
+    COMPONENTS = 1 << SB_INITIAL_COMPONENTS
+};
+
+/* clang-format off */
+static const sb_key component_keys[] = {
+    {.name = "amplitude", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_component, amplitude), .unit = "m",
+     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Amplitude, half of the height."},
+    {.name = "wavelength", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_component, wavelength), .unit = "m",
+     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Wavelength."},
+    {.name = "phase", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_component, phase), .unit = "degrees", SB_KEY_ANY,
+     .fallback = "0", .doc = "Phase at `position`; 0: a crest."},
+    {.name = "direction", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_initial_component, direction), .min = -1, .max = 1,
+     .fallback = "1", .doc = "Direction of travel: 1 towards +x, -1 towards -x; 0 is an error."},
+};
+/* clang-format on */
+
+static const sb_table initial_component_table = {SB_KEY_ROWS(component_keys), .size = sizeof(sb_initial_component)};
 
 static unsigned wave_variant(const void *item, const sb_yaml *map)
 {
@@ -75,22 +96,23 @@ static const sb_key wave_keys[] = {
      .fallback = "none", .doc = "Wave that is on the water at the start."},
     {.name = "height", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, height), .unit = "m",
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
-     .applies = SOLITARY | STANDING, .only = "kind solitary or standing",
-     .doc = "Height H of a solitary wave, at most 0.8332 of its depth; amplitude of a standing "
+     .applies = SOLITARY | STANDING | REGULAR, .only = "kind solitary, standing or regular",
+     .doc = "Height H, trough to crest; of a solitary wave at most 0.8332 of its depth; amplitude of a standing "
             "wave, less than its depth."},
     {.name = "depth", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, depth), .unit = "m",
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
-     .applies = SOLITARY | STANDING, .only = "kind solitary or standing",
+     .applies = SOLITARY | STANDING | REGULAR | COMPONENTS, .only = "a wave",
      .doc = "Still-water depth for the wave theory."},
     {.name = "position", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, position), .unit = "m",
-     SB_KEY_ANY, .fallback = "0", .applies = SOLITARY | STANDING,
-     .only = "kind solitary or standing", .doc = "x of the crest."},
+     SB_KEY_ANY, .fallback = "0", .applies = SOLITARY | STANDING | REGULAR | COMPONENTS,
+     .only = "a wave", .doc = "x of a crest; of `components`, where their phases are given."},
     {.name = "wavelength", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, wavelength),
      .unit = "m", .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
-     .applies = STANDING, .only = "kind standing",
-     .doc = "Wavelength of the standing wave, at least two particle spacings."},
+     .applies = STANDING | REGULAR, .only = "kind standing or regular",
+     .doc = "Wavelength: of a standing wave at least two particle spacings; of regular waves one that fits a domain which "
+            "is periodic in x a whole number of times."},
     {.name = "direction", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_initial_wave, direction), .min = -1,
-     .max = 1, .fallback = "1", .applies = SOLITARY, .only = "kind solitary",
+     .max = 1, .fallback = "1", .applies = SOLITARY | REGULAR, .only = "kind solitary or regular",
      .doc = "Direction of travel: 1 towards +x, -1 towards -x; 0 is an error."},
     {.name = "theory", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_initial_wave, theory), .words = theory_names,
      .fallback = "third-order", .applies = SOLITARY, .only = "kind solitary",
@@ -98,6 +120,13 @@ static const sb_key wave_keys[] = {
             "`boussinesq`, first order, as many experiments are defined; or `serre`, exact for `offshore` "
             "with dispersion, whatever the height. High `boussinesq` waves lose water at their tail for a "
             "hundred depths."},
+    {.name = "order", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_initial_wave, order), .words = order_names,
+     .fallback = "fifth-order", .applies = REGULAR, .only = "kind regular",
+     .doc = "Order of the Stokes wave in its steepness. H L^2/d^3 is below 40 for `fifth-order`, below 26.3 for "
+            "`second-order`."},
+    {.name = "components", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_initial_wave, components, component_count),
+     .table = &initial_component_table, .applies = COMPONENTS, .only = "kind components",
+     .doc = "Linear waves that are summed; at least one."},
 };
 /* clang-format on */
 
@@ -107,7 +136,7 @@ static const double HIGHEST = 0.8332;
 
 static sb_status finish_wave(sb_reader *reader, const sb_yaml *map, void *item)
 {
-    const sb_initial_wave *wave = item;
+    sb_initial_wave *wave = item;
     if (wave->kind == SB_INITIAL_SOLITARY && wave->direction == 0)
         return sb_reader_fail(reader, map, "direction", "0 is not a direction, expected 1 or -1");
     if (wave->kind == SB_INITIAL_SOLITARY && wave->height > HIGHEST * wave->depth * (1 + 1e-9))
@@ -122,7 +151,7 @@ static sb_status finish_wave(sb_reader *reader, const sb_yaml *map, void *item)
         return sb_reader_fail(reader, map, "wavelength",
                               "%g m is too short to be resolved, expected at least two spacings, %g m",
                               wave->wavelength, 2 * reader->scene->resolution);
-    return SB_OK;
+    return sb_initial_wave_finish(reader, map, wave);
 }
 
 const sb_table sb_wave_table = {SB_KEY_ROWS(wave_keys), .size = sizeof(sb_initial_wave), .variant = wave_variant,

@@ -8,6 +8,7 @@ static const char *const start_names[] = {"command", NULL};
 static const char *const after_names[] = {"stay", "return", NULL};
 static const char *const lasts_names[] = {"forever", NULL};
 static const char *const theory_names[] = {"auto", "linear", "second-order", "cnoidal", NULL};
+static const char *const motion_names[] = {"piston", "flap", NULL};
 static const char *const spectrum_names[] = {"jonswap", "pierson-moskowitz", NULL};
 
 enum { RETURNS = 1 << 16 };
@@ -24,6 +25,15 @@ static unsigned variant(const void *item, const sb_yaml *map)
         .name = #key, .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.key), .unit = unit_, .min = 0,            \
         .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .applies = bit, .only = only_, .doc = doc_           \
     }
+
+/* clang-format off */
+static const sb_key plate_keys[] = {
+    {.name = "width", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_plate_settings, width), .unit = "m", SB_KEY_NOT_NEGATIVE,
+     .fallback = "0", .doc = "About the width of one plate, at least 3 spacings; 0: the paddle is one."},
+};
+/* clang-format on */
+
+static const sb_table plate_table = {SB_KEY_ROWS(plate_keys), .size = sizeof(sb_plate_settings)};
 
 /* clang-format off */
 static const sb_key keys[] = {
@@ -57,6 +67,9 @@ static const sb_key keys[] = {
     {.name = "theory", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_wavemaker_use, law.theory), .words = theory_names,
      .applies = SB_WM_THEORY, .only = "regular waves", .fallback = "auto",
      .doc = "Theory of the paddle; `auto`: `second-order` where H L^2/d^3 < 26.3, otherwise `cnoidal`."},
+    {.name = "motion", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_wavemaker_use, law.motion), .words = motion_names,
+     .applies = SB_WM_TRAIN, .only = "wave trains", .fallback = "piston",
+     .doc = "`piston`: the same motion at all heights; `flap`: a box that turns about the bed, in rows of 2 spacings."},
     {.name = "spectrum", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_wavemaker_use, law.spectrum), .words = spectrum_names,
      .applies = SB_WM_SPECTRUM, .only = "irregular and focused", .fallback = "jonswap", .doc = "Form of the spectrum."},
     {.name = "gamma", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.gamma), .min = 1, .max = 20,
@@ -81,6 +94,9 @@ static const sb_key keys[] = {
     {.name = "reach", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.reach), .unit = "m", SB_KEY_POSITIVE,
      .applies = SB_WM_TRAIN, .only = "wave trains", .derived = "half of the depth",
      .doc = "Farthest that an absorbing paddle moves from its law to absorb."},
+    {.name = "plates", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_wavemaker_use, plates), .table = &plate_table,
+     .applies = SB_WM_TRAIN, .only = "wave trains",
+     .doc = "Push-plates side by side, into which an absorbing paddle is divided: each absorbs on its own. 3D only."},
     {.name = "after", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_wavemaker_use, law.after),
      .words = after_names, .fallback = "stay",
      .doc = "Motion after the stroke: `stay` at its end, or `return` to the start."},
@@ -135,6 +151,8 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
         if (!sb_yaml_child(map, "absorb")) use->law.absorb = strcmp(use->law.kind->name, "absorber") == 0;
         if (!sb_yaml_child(map, "reach")) use->law.reach = 0.5 * use->law.depth;
     }
+    status = sb_plates_check(reader, map, use);
+    if (status != SB_OK) return status;
     sb_paddle paddle = {0};
     sb_error why = {0};
     sb_absorbing_filter filter;

@@ -94,10 +94,10 @@ static void planes_and_maps_read_across_periodic_sides(void **state)
     tank_repeat(&t, 1);
     sb_model *m = &t.model;
     for (size_t i = 0; i < m->fluid_count; i++) m->fluid_velocity[i] = sb_vec(1, -0.7, 0);
-    sb_flow_plane planes[] = {{"side", 0, 0, 0, 0.4, -1, 4, false, 0, 0},
-                              {"beside", 0.98, 0, 0.98, 0.4, -1, 4, false, 0, 0},
-                              {"middle", 0.5, 0, 0.5, 0.4, -1, 4, false, 0, 0},
-                              {"along", 0, 0.4, 1, 0.4, -1, 4, false, 0, 0}};
+    sb_flow_plane planes[] = {{"side", 0, 0, 0, 0.4, -1, 4, false, 0, 0, {.height = 0}},
+                              {"beside", 0.98, 0, 0.98, 0.4, -1, 4, false, 0, 0, {.height = 0}},
+                              {"middle", 0.5, 0, 0.5, 0.4, -1, 4, false, 0, 0, {.height = 0}},
+                              {"along", 0, 0.4, 1, 0.4, -1, 4, false, 0, 0, {.height = 0}}};
     enum { PLANES = sizeof planes / sizeof *planes };
     t.scene.measure =
         (sb_measure_settings){.interval = 0.25,

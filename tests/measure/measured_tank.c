@@ -75,7 +75,7 @@ static void a_plane_counts_every_particle(void **state)
     (void)state;
     tank t;
     tank_make(&t, 2, SPACING, sb_vec(4, 1, 2), 1, 1, 0);
-    sb_flow_plane plane = {"plane", 1.5, 0, 1.5, 1, -1, 4, false, 0, 0};
+    sb_flow_plane plane = {"plane", 1.5, 0, 1.5, 1, -1, 4, false, 0, 0, {.height = 0}};
     t.scene.measure = (sb_measure_settings){.interval = 0.01, .plane_count = 1, .planes = &plane};
     sb_sim *sim;
     sb_measure *measure;

@@ -31,7 +31,7 @@ static void plane_counts_every_particle_once(void **state)
 {
     (void)state;
     /* From (5, 2) to (5, 8), heights 1 to 4: +x is to the right. */
-    const sb_flow_plane plane = {"plane", 5, 2, 5, 8, 1, 4, false, 0, 0};
+    const sb_flow_plane plane = {"plane", 5, 2, 5, 8, 1, 4, false, 0, 0, {.height = 0}};
     fake_world world;
     fake_world_make(&world, 3, 0.5, sb_vec(-5, 0, 0), sb_vec(30, 10, 10));
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(4, 10, 6), 0, 0, 0, 1);
@@ -44,8 +44,8 @@ static void plane_counts_every_particle_once(void **state)
 static void an_oblique_plane_has_the_same_flux(void **state)
 {
     (void)state;
-    const sb_flow_plane plane = {"plane", 8, 2, 5, 8, -1, 20, false, 0, 0};
-    const sb_flow_plane turned = {"plane", 5, 8, 8, 2, -1, 20, false, 0, 0};
+    const sb_flow_plane plane = {"plane", 8, 2, 5, 8, -1, 20, false, 0, 0, {.height = 0}};
+    const sb_flow_plane turned = {"plane", 5, 8, 8, 2, -1, 20, false, 0, 0, {.height = 0}};
     fake_world world;
     fake_world_make(&world, 3, 0.5, sb_vec(-5, 0, 0), sb_vec(30, 10, 10));
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(4, 10, 6), 0, 0, 0.1, 1);
@@ -58,7 +58,7 @@ static void an_oblique_plane_has_the_same_flux(void **state)
 static void plane_in_two_dimensions(void **state)
 {
     (void)state;
-    const sb_flow_plane plane = {"plane", 5, 0, 5, 1, 0, 3, false, 0, 0};
+    const sb_flow_plane plane = {"plane", 5, 0, 5, 1, 0, 3, false, 0, 0, {.height = 0}};
     fake_world world;
     fake_world_make(&world, 2, 0.25, sb_vec(-5, 0, 0), sb_vec(30, 0, 10));
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(4, 0, 4), 0, 0, 0, 1);

@@ -190,7 +190,7 @@ static void survives_failing_memory(void **state)
     make_world(&world, bodies);
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(10, 10, 5), 0, 0, 0, 1);
     sb_gauge gauge = {"g", 5, 5};
-    sb_flow_plane plane = {"plane", 5, 0, 5, 10, 0, 10, false, 0, 0};
+    sb_flow_plane plane = {"plane", 5, 0, 5, 10, 0, 10, false, 0, 0, {.height = 0}};
     sb_measure_settings *settings = &world.scene.measure;
     settings->gauges = &gauge;
     settings->gauge_count = 1;

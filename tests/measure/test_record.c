@@ -23,7 +23,7 @@ static void velocities_over_depth(void **state)
     fake_world_make(&world, 3, 0.1, sb_vec(0, 0, 0), sb_vec(4, 4, 3));
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(4, 4, 2), 0.3, 0.1, 0, 1);
     stir(&world);
-    sb_flow_plane plane = {"line", 2, 1, 2, 3, 0, 3, true, 0.2, 0.5};
+    sb_flow_plane plane = {"line", 2, 1, 2, 3, 0, 3, true, 0.2, 0.5, {.height = 0}};
     world.scene.measure.interval = 0.1;
     world.scene.measure.planes = &plane;
     world.scene.measure.plane_count = 1;
@@ -67,8 +67,8 @@ static void thin_water_and_land(void **state)
     fake_world_make(&world, 2, 0.1, sb_vec(0, 0, 0), sb_vec(4, 0, 3));
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(2, 0, 0.2), 0, 0, 0, 1);
     for (size_t i = 0; i < world.sim.report.fluid_count; i++) world.sim.samples[i].velocity = sb_vec(0.7, 0, 0);
-    sb_flow_plane planes[] = {{"wet", 1, -0.5, 1, 0.5, 0, 3, true, 0.1, 0.4},
-                              {"dry", 3, -0.5, 3, 0.5, 0, 3, true, 0.1, 0.4}};
+    sb_flow_plane planes[] = {{"wet", 1, -0.5, 1, 0.5, 0, 3, true, 0.1, 0.4, {.height = 0}},
+                              {"dry", 3, -0.5, 3, 0.5, 0, 3, true, 0.1, 0.4, {.height = 0}}};
     world.scene.measure.interval = 0.1;
     world.scene.measure.planes = planes;
     world.scene.measure.plane_count = 2;

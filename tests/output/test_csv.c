@@ -16,7 +16,8 @@
 static sb_model_body bodies[2] = {{.name = "reactor1", .report = true}, {.name = "a \"b\", c", .report = true}};
 static sb_gauge gauges[1] = {{"offshore", 1, 2}};
 static sb_probe probes[1] = {{"inlet", {0, 0, 0}, 0}};
-static sb_flow_plane planes[1] = {{"quay", 0, 0, 0, 1, 0, 1, true, 0.1, 1}};
+static sb_flow_plane planes[1] = {
+    {.name = "quay", .by = 1, .z_max = 1, .record = true, .record_interval = 0.1, .record_spacing = 1}};
 static sb_runup_line lines[1] = {{"beach", 0, 0, 1, 0}};
 
 static sb_reflection_set sets[1] = {{.name = "array"}};

@@ -5,7 +5,7 @@
 /* Rows of a wave that comes in alone: u = 2 sqrt(g h) - 2 sqrt(g d). */
 static void write_record(const sea_case *c)
 {
-    sb_flow_plane plane = {"line", 0, 0, 0, 6, 0, 2, true, 0.1, 3};
+    sb_flow_plane plane = {"line", 0, 0, 0, 6, 0, 2, true, 0.1, 3, {.height = 0}};
     sb_scene scene = {.dimensions = 3, .measure = {.planes = &plane, .plane_count = 1}};
     const sb_model model = {0};
     sb_csv *csv;

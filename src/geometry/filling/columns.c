@@ -4,7 +4,6 @@
 
 #include "base/memory.h"
 #include "base/stop.h"
-#include "physics/wave_theory.h"
 
 #include <stdlib.h>
 
@@ -26,11 +25,7 @@ double sb_columns_surface(const sb_columns *c, double x)
 {
     const sb_initial_wave *wave = &c->scene->wave;
     if (!c->waves || wave->kind == SB_INITIAL_NONE) return c->level;
-    double ahead = x - wave->position;
-    if (wave->kind == SB_INITIAL_STANDING)
-        return c->level + sb_standing_elevation(wave->height, wave->wavelength, ahead);
-    const sb_solitary solitary = {wave->height, wave->depth, c->scene->fluid.gravity, wave->theory};
-    return c->level + sb_solitary_elevation(&solitary, wave->direction < 0 ? -ahead : ahead);
+    return c->level + sb_initial_elevation(wave, c->scene->fluid.gravity, x - wave->position);
 }
 
 static bool any_contains(const sb_columns *c, sb_vec3 at)

@@ -4,7 +4,6 @@
 
 #include "base/memory.h"
 #include "base/stop.h"
-#include "physics/wave_theory.h"
 
 #include <string.h>
 
@@ -105,11 +104,10 @@ static sb_vec3 keep_clear(const sb_columns *c, sb_vec3 at)
 static sb_vec3 velocity_at(const sb_columns *c, sb_vec3 at)
 {
     const sb_initial_wave *wave = &c->scene->wave;
-    if (!c->waves || wave->kind != SB_INITIAL_SOLITARY) return c->velocity;
-    const sb_solitary solitary = {wave->height, wave->depth, c->scene->fluid.gravity, wave->theory};
-    double sign = wave->direction < 0 ? -1 : 1, u, w;
-    sb_solitary_velocity(&solitary, sign * (at.x - wave->position), fmax(at.z - (c->level - wave->depth), 0), &u, &w);
-    return sb_add(c->velocity, sb_vec(sign * u, 0, w));
+    double u, w;
+    if (!c->waves || wave->kind == SB_INITIAL_NONE || wave->kind == SB_INITIAL_STANDING) return c->velocity;
+    sb_initial_velocity(wave, c->scene->fluid.gravity, at.x - wave->position, at.z - (c->level - wave->depth), &u, &w);
+    return sb_add(c->velocity, sb_vec(u, 0, w));
 }
 
 static void fill_run(const sb_columns *c, int64_t i, int64_t j, const sb_run *run, size_t layers, size_t at,

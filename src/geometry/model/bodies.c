@@ -128,15 +128,15 @@ static sb_status warn_names(const sb_body *from, const sb_mesh *meshes, size_t c
         from->name, replaced, list, replaced > SHOWN ? ", ..." : "");
 }
 
-/* Adds the meshes of one body of the scene, each as a body of the model. */
-static sb_status add_meshes(const sb_scene *scene, const sb_body *from, sb_model *model, size_t *capacity,
-                            sb_error *error)
+/* Adds the meshes of one body of the scene, each as a body of the model. shape: the body, or a push-plate of it. */
+static sb_status add_meshes(const sb_scene *scene, const sb_body *from, const sb_body *shape, sb_model *model,
+                            size_t *capacity, sb_error *error)
 {
     sb_mesh *meshes = NULL;
     size_t count = 0;
     /* Solids are searched for, and terrain may have to continue, as far as the support radius beyond the domain. */
     const double margin = 4 * scene->numerics.support * scene->resolution;
-    sb_status status = sb_mesh_from_body_within(from, scene->resolution, scene->domain.min, scene->domain.max, margin,
+    sb_status status = sb_mesh_from_body_within(shape, scene->resolution, scene->domain.min, scene->domain.max, margin,
                                                 &meshes, &count, error);
     if (status != SB_OK) return status;
     status = warn_names(from, meshes, count, model, error);
@@ -155,6 +155,37 @@ static sb_status add_meshes(const sb_scene *scene, const sb_body *from, sb_model
     }
     for (size_t i = 0; i < count; ++i) sb_mesh_free(meshes + i);
     sb_free(meshes);
+    return status;
+}
+
+/* Adds a body of the scene; of a paddle that is divided, its plates. */
+static sb_status add_parts(const sb_scene *scene, const sb_body *from, sb_model *model, size_t *capacity,
+                           sb_error *error)
+{
+    const int maker = find_wavemaker(scene, from->name, from->name);
+    sb_plate_row row = {0};
+    if (maker < 0 || sb_scene_plates(scene, &scene->wavemakers[maker], &row) == 0)
+        return add_meshes(scene, from, from, model, capacity, error);
+    const size_t first = model->body_count;
+    sb_status status = SB_OK;
+    for (size_t k = 0; k < row.count && status == SB_OK; ++k) {
+        const sb_body part = sb_model_plate(from, &row, k);
+        status = add_meshes(scene, from, &part, model, capacity, error);
+    }
+    sb_vec3 middle = sb_add(sb_scale(sb_add(from->min, from->max), 0.5), from->translate);
+    middle.z = from->min.z + from->translate.z;
+    if (from->has_moment_point) middle = from->moment_point;
+    for (size_t k = 0; k < row.count && status == SB_OK; ++k) {
+        sb_model_body *body = &model->bodies[first + k];
+        body->plate = k;
+        body->plates = row.count;
+        body->report = from->report && k == 0;
+        body->moment_point = middle;
+        if (row.axis == 2) { /* the motion grows from the hinge to the still level, and beyond */
+            const double above = ((double)k + 0.5) * (row.to - row.from) / (double)row.count;
+            body->held = 1 - above / (scene->sea.level - row.from);
+        }
+    }
     return status;
 }
 
@@ -191,7 +222,7 @@ sb_status sb_model_import_bodies(const sb_scene *scene, sb_model *model, sb_erro
     size_t capacity = 0;
     sb_status status = SB_OK;
     for (size_t i = 0; i < scene->body_count && status == SB_OK; ++i)
-        status = add_meshes(scene, scene->bodies + i, &made, &capacity, error);
+        status = add_parts(scene, scene->bodies + i, &made, &capacity, error);
     if (status == SB_OK) status = check_wavemakers(scene, &made, error);
     if (status == SB_OK) status = sb_model_end_terrain(scene, &made, error);
     if (status == SB_OK && has_walls(scene)) {

@@ -103,11 +103,14 @@ static sb_status check_depths(const sb_scene *scene, sb_model *model, sb_error *
         status = check_depth(model, "water.wave", " at its crest", wave->depth,
                              depth_between(scene, model, sb_vec(1, 0, 0), wave->position - near, wave->position + near),
                              error);
+    if ((wave->kind == SB_INITIAL_REGULAR || wave->kind == SB_INITIAL_COMPONENTS) && scene->sea.present)
+        status = check_depth(model, "water.wave", "", wave->depth,
+                             depth_between(scene, model, sb_vec(1, 0, 0), model->min.x, model->max.x), error);
     if (status == SB_OK && wave->kind != SB_INITIAL_NONE && scene->sea.present &&
-        scene->sea.level + wave->height > scene->domain.max.z)
+        scene->sea.level + sb_initial_crest(wave) > scene->domain.max.z)
         status = sb_model_warn(model, error,
                                "water.wave: its crest at z = %g m is above the domain's top, %g m: it is cut off",
-                               scene->sea.level + wave->height, scene->domain.max.z);
+                               scene->sea.level + sb_initial_crest(wave), scene->domain.max.z);
     for (size_t w = 0; w < scene->wavemaker_count && status == SB_OK && scene->sea.present; w++) {
         const sb_wavemaker_use *maker = &scene->wavemakers[w];
         double front = -(double)INFINITY;

@@ -24,6 +24,10 @@ typedef struct sb_model_body {
     double thin;  /* m, its thickness if that is less than the support radius; else 0 */
     double gap;   /* m, the narrowest gap before its surface if walls do not resolve it; else 0 */
     sb_mesh mesh; /* scene coordinates at t = 0; empty for domain sides */
+    /* Of a paddle that is divided into push-plates, or a flap's rows: its plates follow each other. The first one has
+       the paddle's name, and the forces on all. 0, 0: a body that is not divided. */
+    size_t plate, plates;
+    double held; /* share of the motion that it does not make: of the rows of a flap; else 0 */
 } sb_model_body;
 
 /* The ground within `width` of a side through which a given sea comes in: cells of `step` inwards and `pitch` along the
@@ -65,6 +69,9 @@ static inline double sb_model_wave_speed(const sb_scene *scene, const sb_model *
 {
     return sqrt(scene->fluid.gravity * fmax(fmax(model->still_depth, model->sea_depth), scene->resolution));
 }
+
+/* plates.c: the index of the body that has a body's forces: of a push-plate the first plate, otherwise the body. */
+size_t sb_model_whole(const sb_model *model, size_t body);
 
 /* sea.c: half of the length (m) over which water of this depth is averaged inside of a strip of given water. */
 double sb_model_sea_reach(const sb_model *model, double depth);

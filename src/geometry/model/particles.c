@@ -17,26 +17,34 @@ sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb
         .repeats = {sb_scene_repeats(scene, 0), sb_scene_repeats(scene, 1), sb_scene_repeats(scene, 2)}};
     sb_sample_source *sources = sb_alloc(space->count, sizeof *sources);
     if (!sources) return sb_fail_memory(error, "surfaces");
+    sb_wholes *wholes = NULL;
     size_t count = 0;
-    for (size_t i = 0; i < space->count; ++i)
-        if (space->solid[i])
-            sources[count++] = (sb_sample_source){space->mesh[i], space->solid[i], model->bodies[i].role,
-                                                  model->bodies[i].wavemaker >= 0};
     sb_samples samples = {.count = 0};
-    sb_status status = sb_sample_surfaces(&settings, sources, count, &samples, error);
+    sb_status status = sb_wholes_create(scene, model, &wholes, error);
+    for (size_t i = 0; i < space->count && status == SB_OK; ++i) {
+        if (!space->solid[i]) continue;
+        sources[count] =
+            (sb_sample_source){space->mesh[i], space->solid[i], model->bodies[i].role, model->bodies[i].wavemaker >= 0};
+        count += sb_wholes_source(wholes, model, i, &sources[count]);
+    }
+    if (status == SB_OK) status = sb_sample_surfaces(&settings, sources, count, &samples, error);
+    sb_wholes_destroy(wholes);
     sb_free(sources);
     if (status != SB_OK) return status;
     count = 0;
     for (size_t i = 0; i < space->count; ++i) {
         sb_model_body *body = model->bodies + i;
         body->begin = samples.begin[count];
-        if (space->solid[i]) body->count = samples.begin[++count] - body->begin;
+        if (space->solid[i] && body->plate == 0) body->count = samples.begin[++count] - body->begin;
     }
     model->wall_count = samples.count;
     model->wall_position = samples.position;
     model->wall_normal = samples.normal;
     sb_free(samples.begin);
-    return SB_OK;
+    for (size_t i = 0; i < space->count && status == SB_OK; ++i)
+        if (model->bodies[i].plate == 0 && sb_model_share_plates(scene, model, i) != 0)
+            status = sb_fail_memory(error, "plates");
+    return status;
 }
 
 /* Warns of boxes that are probably not as intended. */

@@ -4,6 +4,7 @@
 
 #include "geometry/filling/fill.h"
 #include "geometry/model/model.h"
+#include "geometry/sampling/sample.h"
 #include "geometry/solid/solid.h"
 
 /* Meshes of the surfaces that water meets (in 2D their section with y = 0) and their solids, one per body of the model
@@ -19,6 +20,9 @@ typedef struct sb_model_space {
 sb_status sb_model_space_create(const sb_model *model, const sb_scene *domain_of, sb_model_space *space,
                                 sb_error *error);
 void sb_model_space_free(sb_model_space *space);
+/* A half-width of sections that is large compared with the scene, so that a section's winding number is that of an
+   infinite strip, m. */
+double sb_model_strip_width(const sb_model *model);
 
 /* Warns if solids at one periodic side do not continue at the opposite side. */
 sb_status sb_model_check_sides(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
@@ -29,6 +33,18 @@ sb_status sb_model_facets(const sb_scene *scene, const sb_model_space *space, sb
 
 /* Adds warnings of what is too coarse or too thin for reliable results, and of inputs that are probably mistakes. */
 sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+
+/* plates.c: the part of a paddle that is one of its push-plates; the first and the last have what is outside of the
+   domain. */
+sb_body sb_model_plate(const sb_body *from, const sb_plate_row *row, size_t plate);
+/* The undivided paddles, whose surfaces are sampled; NULL: no paddle is divided. */
+typedef struct sb_wholes sb_wholes;
+sb_status sb_wholes_create(const sb_scene *scene, const sb_model *model, sb_wholes **wholes, sb_error *error);
+void sb_wholes_destroy(sb_wholes *wholes);
+/* Returns whether a body is sampled; of a first plate, mesh and solid become those of the paddle. */
+bool sb_wholes_source(const sb_wholes *wholes, const sb_model *model, size_t body, sb_sample_source *source);
+/* Divides the boundary particles of a first plate among its plates. Returns 0, or -1 without memory. */
+int sb_model_share_plates(const sb_scene *scene, sb_model *model, size_t body);
 
 /* ends.c: adds walls where terrain ends within the domain, and warns of a body that has such walls. */
 sb_status sb_model_end_terrain(const sb_scene *scene, sb_model *model, sb_error *error);

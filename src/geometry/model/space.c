@@ -35,9 +35,7 @@ static sb_status domain_mesh(const sb_scene *scene, sb_mesh *mesh, sb_error *err
     return SB_OK;
 }
 
-/* Returns a width that is large compared with the scene, so that a section's winding number is that of an infinite
-   strip. */
-static double strip_width(const sb_model *model)
+double sb_model_strip_width(const sb_model *model)
 {
     return 1e3 * (model->max.x - model->min.x + model->max.z - model->min.z);
 }
@@ -68,7 +66,7 @@ static sb_status add_solid(const sb_model *model, const sb_scene *scene, size_t 
     if (status != SB_OK) return status;
     const sb_mesh *mesh = is_domain ? &walls : space->mesh[index];
     if (model->dimensions == 2) {
-        status = sb_section_mesh(mesh, strip_width(model), space->section + index, error);
+        status = sb_section_mesh(mesh, sb_model_strip_width(model), space->section + index, error);
         sb_mesh_free(&walls);
         space->mesh[index] = space->section + index;
     } else if (is_domain) {

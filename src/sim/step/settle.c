@@ -60,12 +60,8 @@ float sb_settle_wave_acceleration(const sb_sim *sim, sb_record at)
     const double gravity = sim->scene->fluid.gravity, step = 1e-4 * wave->depth;
     if (wave->kind == SB_INITIAL_NONE || !sim->policy->holds_wave) return 0;
     const double x = sb_space_position(&sim->space, at).x - wave->position;
-    const sb_solitary solitary = {wave->height, wave->depth, gravity, wave->theory};
-    const bool travels = wave->kind == SB_INITIAL_SOLITARY;
-    const double ahead = travels ? sb_solitary_elevation(&solitary, x + step)
-                                 : sb_standing_elevation(wave->height, wave->wavelength, x + step);
-    const double behind = travels ? sb_solitary_elevation(&solitary, x - step)
-                                  : sb_standing_elevation(wave->height, wave->wavelength, x - step);
+    const double ahead = sb_initial_elevation(wave, gravity, x + step);
+    const double behind = sb_initial_elevation(wave, gravity, x - step);
     return (float)(gravity * (ahead - behind) / (2 * step));
 }
 

@@ -36,12 +36,14 @@ sb_status sb_absorber_create(sb_sim *sim, size_t body, sb_moving_body *moving, s
     if (!a) return sb_fail_memory(error, "an absorbing paddle");
     a->distance = SB_ABSORB_DISTANCE * sim->model->spacing;
     a->reach = use->law.reach;
-    find_face(sim, &sim->model->bodies[body], use->direction, a);
+    if (sim->model->bodies[body].plates > 0)
+        sb_plate_find(sim, body, use->direction, a);
+    else
+        find_face(sim, &sim->model->bodies[body], use->direction, a);
     return sb_paddle_fit_absorption(&use->law, &moving->paddle, a->distance, &a->filter, error);
 }
 
-/* A cubic B-spline over [-2, 2] with the integral 1. */
-static double spline(double x)
+double sb_column_weight(double x)
 {
     const double r = fabs(x), far = fmax(2 - r, 0), near = fmax(1 - r, 0);
     return (far * far * far - 4 * near * near * near) / 6;
@@ -65,7 +67,7 @@ static double column(sb_sim *sim, const sb_moving_body *moving)
             const double ahead = (at.x * d.x + at.y * d.y - from) / width;
             if (!(fabs(ahead) < 2)) continue;
             const double along = at.x * a->side[0] + at.y * a->side[1];
-            if (flat || (along >= a->from[0] && along <= a->from[1])) sb_exact_add(&own, spline(ahead));
+            if (flat || (along >= a->from[0] && along <= a->from[1])) sb_exact_add(&own, sb_column_weight(ahead));
         }
         sb_sums_merge(&sum, &own, 1);
     }
@@ -74,11 +76,24 @@ static double column(sb_sim *sim, const sb_moving_body *moving)
     return sb_exact_value(&sum) * volume / (width * (flat ? 1 : a->from[1] - a->from[0]));
 }
 
+int sb_absorbers_measure(sb_sim *sim)
+{
+    for (size_t m = 0; m < sim->walls.moving_count; m++) {
+        sb_moving_body *moving = &sim->walls.moving[m];
+        if (!moving->absorber || moving->absorber->plate > 0) continue;
+        if (moving->absorber->plates == 0)
+            moving->absorber->depth = column(sim, moving);
+        else if (sb_plates_measure(sim, moving) != 0)
+            return -1;
+    }
+    return 0;
+}
+
 /* Each filter is advanced exactly for an input that is constant over the step. */
 double sb_absorber_advance(sb_sim *sim, sb_moving_body *moving)
 {
     sb_absorber *a = moving->absorber;
-    const double dt = sim->state.time_step, depth = column(sim, moving);
+    const double dt = sim->state.time_step, depth = a->depth;
     if (!a->known) a->still = depth;
     a->known = true;
     const double expected = moving->paddle.kind->surface(moving->paddle.state, sim->state.time - moving->paddle.start);
@@ -101,7 +116,20 @@ sb_absorption sb_sim_absorption(const sb_sim *sim, size_t body)
 {
     const uint32_t m = sim->walls.moving_of_body[body];
     const sb_absorber *a = m == UINT32_MAX ? NULL : sim->walls.moving[m].absorber;
-    return a ? (sb_absorption){true, a->offset, a->farthest, a->limited} : (sb_absorption){0};
+    if (!a || a->plate > 0) return (sb_absorption){0};
+    if (a->plates == 0) return (sb_absorption){true, a->offset, a->farthest, a->limited, 0, 0};
+    sb_absorption all = {.absorbs = true, .plates = a->plates};
+    double least = (double)INFINITY, most = -(double)INFINITY;
+    for (size_t k = 0; k < a->plates; k++) {
+        const sb_absorber *one = sim->walls.moving[m + k].absorber;
+        all.offset += one->offset / (double)a->plates;
+        all.farthest = fmax(all.farthest, one->farthest);
+        all.limited += one->limited;
+        least = fmin(least, one->offset);
+        most = fmax(most, one->offset);
+    }
+    all.apart = most - least;
+    return all;
 }
 
 enum { REALS = 6 };

@@ -26,6 +26,7 @@ sb_status sb_stage_impulse(sb_sim *sim, sb_error *error)
     sim->work.sums.contact_bodies = sums.contact_bodies;
     if (!sim->policy->runs) return SB_OK;
     for (size_t body = 0; body < bodies; body++)
-        add_impulse(&sim->state.impulse[body], sim->state.time_step, sim->work.body_force + body * SB_FORCE_VALUES);
+        add_impulse(&sim->state.impulse[sb_model_whole(sim->model, body)], sim->state.time_step,
+                    sim->work.body_force + body * SB_FORCE_VALUES);
     return SB_OK;
 }

@@ -29,6 +29,7 @@ typedef struct sb_moving_body {
     struct sb_absorber *absorber; /* NULL: it only follows its law */
     bool commanded;               /* its start waits for a command, or one gave it: it is saved */
     sb_vec3 direction;
+    double share;                           /* of the law's motion that it makes */
     double displacement, next_displacement; /* m, at t and t + dt */
     sb_vec3 velocity;                       /* m/s, between them */
 } sb_moving_body;

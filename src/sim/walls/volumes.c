@@ -25,7 +25,9 @@ static void add_sums(const sb_sim *sim, const sb_wall_set *set, sb_record at, si
                 int64_t cell = sb_cells_find(&set->cells, code + sb_cell_step(dx, dy, dz));
                 if (cell < 0) continue;
                 for (uint32_t k = set->cells.begin[cell]; k < set->cells.begin[cell + 1]; k++) {
-                    if (only_own && set->body[k] != set->body[b]) continue;
+                    if (only_own && set->body[k] != set->body[b] &&
+                        sb_model_whole(sim->model, set->body[k]) != sb_model_whole(sim->model, set->body[b]))
+                        continue;
                     sb_f4 d = sb_offset(at, set->record[k]);
                     double r2 = (double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2];
                     const double w =

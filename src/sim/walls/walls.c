@@ -149,6 +149,7 @@ sb_status sb_paddles_create(sb_sim *sim, sb_error *error)
         const sb_wavemaker_use *use = &sim->scene->wavemakers[model->bodies[b].wavemaker];
         sb_moving_body *moving = &sim->walls.moving[sim->walls.moving_count];
         moving->direction = use->direction;
+        moving->share = 1 - model->bodies[b].held;
         moving->commanded = isinf(use->law.start);
         sb_status status = sb_paddle_create(&use->law, &moving->paddle, error);
         if (status != SB_OK) return status;
@@ -241,14 +242,18 @@ sb_status sb_stage_walls(sb_sim *sim, sb_error *error)
     bool moved = false;
     for (size_t m = 0; m < sim->walls.moving_count; m++) {
         sb_moving_body *moving = &sim->walls.moving[m];
-        double here = sim->policy->runs ? sb_paddle_displacement(&moving->paddle, time) : 0;
-        double there = sim->policy->runs ? sb_paddle_displacement(&moving->paddle, time + dt) : 0;
+        double here = sim->policy->runs ? moving->share * sb_paddle_displacement(&moving->paddle, time) : 0;
+        double there = sim->policy->runs ? moving->share * sb_paddle_displacement(&moving->paddle, time + dt) : 0;
         if (moving->absorber) here += moving->absorber->offset;
         moved |= here != moving->displacement;
         moving->displacement = here;
-        if (moving->absorber && sim->policy->runs) there += sb_absorber_advance(sim, moving);
         moving->next_displacement = there;
-        moving->velocity = sb_scale(moving->direction, (there - here) / dt);
+    }
+    if (sim->policy->runs && sb_absorbers_measure(sim) != 0) return sb_fail_memory(error, "absorbing paddles");
+    for (size_t m = 0; m < sim->walls.moving_count; m++) {
+        sb_moving_body *moving = &sim->walls.moving[m];
+        if (moving->absorber && sim->policy->runs) moving->next_displacement += sb_absorber_advance(sim, moving);
+        moving->velocity = sb_scale(moving->direction, (moving->next_displacement - moving->displacement) / dt);
     }
     return moved ? sb_walls_restore(sim, error) : SB_OK;
 }

@@ -287,7 +287,8 @@ static void a_solitary_wave_stands_on_the_sea(void **state)
     scene.resolution = 0.1;
     scene.domain.max = sb_vec(60, 0, 4);
     scene.sea = (sb_sea){true, 2, {10, 0, 1}};
-    scene.wave = (sb_initial_wave){SB_INITIAL_SOLITARY, 0.6, 2, 30, 0, -1, SB_SOLITARY_THIRD_ORDER};
+    scene.wave =
+        (sb_initial_wave){.kind = SB_INITIAL_SOLITARY, .height = 0.6, .depth = 2, .position = 30, .direction = -1};
     build();
     const sb_solitary wave = {.height = 0.6, .depth = 2, .gravity = 9.81};
     double crest = 0;

@@ -1,0 +1,59 @@
+#include "output/overtopping_rate.h"
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "output/series.h"
+#include "physics/eurotop.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { TIME = 0, VOLUME = 2 }; /* columns of overtopping.csv */
+
+bool sb_overtopping_wanted(const sb_scene *scene)
+{
+    bool wanted = false;
+    for (size_t p = 0; p < scene->measure.plane_count; p++) wanted |= scene->measure.planes[p].eurotop.height > 0;
+    return wanted;
+}
+
+static sb_overtopping_rate rate_at(const sb_scene *scene, const sb_flow_plane *plane, const sb_series *series)
+{
+    const sb_eurotop_settings *e = &plane->eurotop;
+    const double nan = (double)NAN, g = scene->fluid.gravity, width = hypot(plane->bx - plane->ax, plane->by - plane->ay);
+    sb_overtopping_rate found = {nan, nan, nan, nan, nan};
+    double first = 0, last = 0;
+    if (!(e->height > 0)) return found;
+    for (size_t i = 0; i < series->row_count; i++) {
+        const sb_series_row *row = &series->rows[i];
+        if (strcmp(series->names[row->name], plane->name) != 0 || !(row->values[TIME] >= e->start)) continue;
+        if (isnan(found.from)) {
+            found.from = row->values[TIME];
+            first = row->values[VOLUME];
+        }
+        found.to = row->values[TIME];
+        last = row->values[VOLUME];
+    }
+    if (found.to > found.from) found.rate = (last - first) / ((found.to - found.from) * width);
+    found.freeboard = e->crest - scene->sea.level;
+    found.formula = e->slope > 0 ? sb_eurotop_slope(e->height, found.freeboard, e->slope, e->period, g)
+                                 : sb_eurotop_vertical(e->height, found.freeboard, g);
+    return found;
+}
+
+sb_status sb_overtopping_rates(const char *directory, const sb_scene *scene, sb_overtopping_rate **rates,
+                               sb_error *error)
+{
+    char path[SB_PATH_MAX];
+    sb_series series = {0};
+    sb_status status = sb_path_join(path, directory, "overtopping.csv", error);
+    if (status == SB_OK) status = sb_series_read(path, true, &series, error);
+    if (status != SB_OK) return status;
+    sb_overtopping_rate *made = sb_alloc(scene->measure.plane_count, sizeof *made);
+    for (size_t p = 0; made && p < scene->measure.plane_count; p++)
+        made[p] = rate_at(scene, &scene->measure.planes[p], &series);
+    sb_series_free(&series);
+    if (!made) return sb_fail_memory(error, "rates of overtopping");
+    *rates = made;
+    return SB_OK;
+}

@@ -1,0 +1,122 @@
+/* The wave on the water at the start. */
+#include "physics/dispersion.h"
+#include "scene/reader.h"
+
+#include <math.h>
+
+/* Relative difference between the length of a periodic domain and whole wavelengths that is accepted. */
+static const double WHOLE = 1e-6;
+
+static double sign_of(int direction)
+{
+    return direction < 0 ? -1 : 1;
+}
+
+static double phase_of(const sb_initial_component *c, double ahead)
+{
+    return 2 * M_PI * remainder(sign_of(c->direction) * ahead / c->wavelength, 1) + M_PI / 180 * c->phase;
+}
+
+double sb_initial_elevation(const sb_initial_wave *wave, double gravity, double ahead)
+{
+    const sb_solitary solitary = {wave->height, wave->depth, gravity, wave->theory};
+    double sum = 0;
+    switch (wave->kind) {
+    case SB_INITIAL_NONE:
+        break;
+    case SB_INITIAL_SOLITARY:
+        return sb_solitary_elevation(&solitary, wave->direction < 0 ? -ahead : ahead);
+    case SB_INITIAL_STANDING:
+        return sb_standing_elevation(wave->height, wave->wavelength, ahead);
+    case SB_INITIAL_REGULAR:
+        return sb_stokes_elevation(&wave->stokes, sign_of(wave->direction) * ahead);
+    case SB_INITIAL_COMPONENTS:
+        for (size_t i = 0; i < wave->component_count; i++)
+            sum += wave->components[i].amplitude * cos(phase_of(&wave->components[i], ahead));
+        break;
+    }
+    return sum;
+}
+
+static void add_component(const sb_initial_component *c, double depth, double gravity, double ahead, double z,
+                          double *u, double *w)
+{
+    const double k = 2 * M_PI / c->wavelength, omega = sqrt(gravity * k * tanh(k * depth));
+    const double phase = phase_of(c, ahead), speed = c->amplitude * omega;
+    z = fmin(fmax(z, 0), depth);
+    *u += sign_of(c->direction) * speed * sb_cosh_over_sinh(k, z, depth) * cos(phase);
+    *w += speed * sb_sinh_over_sinh(k, z, depth) * sin(phase);
+}
+
+void sb_initial_velocity(const sb_initial_wave *wave, double gravity, double ahead, double z, double *u, double *w)
+{
+    const sb_solitary solitary = {wave->height, wave->depth, gravity, wave->theory};
+    const double sign = sign_of(wave->direction);
+    *u = *w = 0;
+    switch (wave->kind) {
+    case SB_INITIAL_NONE:
+    case SB_INITIAL_STANDING:
+        return;
+    case SB_INITIAL_SOLITARY:
+        sb_solitary_velocity(&solitary, sign * ahead, fmax(z, 0), u, w);
+        break;
+    case SB_INITIAL_REGULAR:
+        sb_stokes_velocity(&wave->stokes, sign * ahead, z, u, w);
+        break;
+    case SB_INITIAL_COMPONENTS:
+        for (size_t i = 0; i < wave->component_count; i++)
+            add_component(&wave->components[i], wave->depth, gravity, ahead, z, u, w);
+        return;
+    }
+    *u *= sign;
+}
+
+double sb_initial_crest(const sb_initial_wave *wave)
+{
+    double sum = 0;
+    if (wave->kind == SB_INITIAL_REGULAR) return sb_stokes_elevation(&wave->stokes, 0);
+    if (wave->kind != SB_INITIAL_COMPONENTS) return wave->height;
+    for (size_t i = 0; i < wave->component_count; i++) sum += wave->components[i].amplitude;
+    return sum;
+}
+
+/* Refuses a wave that does not fit a whole number of times into a periodic domain. */
+static sb_status check_length(sb_reader *reader, const sb_yaml *map, const char *key, double length)
+{
+    const sb_domain *domain = &reader->scene->domain;
+    const double extent = domain->max.x - domain->min.x, waves = fmax(round(extent / length), 1);
+    if (length < 4 * reader->scene->resolution)
+        return sb_reader_fail(reader, map, key, "a wavelength of %g m is too short, expected at least 4 spacings, %g m",
+                              length, 4 * reader->scene->resolution);
+    if (!sb_scene_repeats(reader->scene, 0) || fabs(extent - waves * length) <= WHOLE * extent) return SB_OK;
+    return sb_reader_fail(reader, map, key,
+                          "a wavelength of %.10g m does not fit the periodic domain of %g m a whole number of times, "
+                          "expected for example %.10g m",
+                          length, extent, extent / waves);
+}
+
+sb_status sb_initial_wave_finish(sb_reader *reader, const sb_yaml *map, sb_initial_wave *wave)
+{
+    static const int orders[] = {1, 2, 5};
+    sb_error why = {0};
+    if (wave->kind == SB_INITIAL_REGULAR) {
+        if (wave->direction == 0)
+            return sb_reader_fail(reader, map, "direction", "0 is not a direction, expected 1 or -1");
+        if (sb_stokes_create(orders[wave->order], wave->height, wave->wavelength, wave->depth,
+                             reader->scene->fluid.gravity, &wave->stokes, &why) != SB_OK)
+            return sb_reader_fail(reader, map, NULL, "%s", why.text);
+        return check_length(reader, map, "wavelength", wave->wavelength);
+    }
+    if (wave->kind != SB_INITIAL_COMPONENTS) return SB_OK;
+    if (wave->component_count == 0)
+        return sb_reader_fail(reader, map, "components", "has no item, expected at least one");
+    for (size_t i = 0; i < wave->component_count; i++) {
+        const sb_initial_component *c = &wave->components[i];
+        if (c->direction == 0)
+            return sb_reader_fail(reader, map, "components", "item %zu has the direction 0, expected 1 or -1", i);
+        sb_status status = check_length(reader, map, "components", c->wavelength);
+        if (status != SB_OK) return status;
+        wave->height = fmax(wave->height, 2 * c->amplitude);
+    }
+    return SB_OK;
+}

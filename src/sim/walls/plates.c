@@ -1,0 +1,95 @@
+/* The surface before each push-plate of a divided paddle. */
+#include "base/memory.h"
+#include "sim/exchange/exchange.h"
+#include "sim/exchange/sums.h"
+#include "sim/walls/absorber.h"
+
+#include <math.h>
+
+/* Half-width in spacings of the column along the paddle's direction, as of a paddle that is one. */
+static const double HALF = SB_ABSORB_DISTANCE;
+
+void sb_plate_find(const sb_sim *sim, size_t body, sb_vec3 direction, sb_absorber *a)
+{
+    const sb_model_body *of = &sim->model->bodies[body];
+    const sb_wavemaker_use *use = &sim->scene->wavemakers[of->wavemaker];
+    sb_plate_row row;
+    a->plate = of->plate;
+    a->plates = sb_scene_plates(sim->scene, use, &row);
+    a->side[0] = row.axis == 0;
+    a->side[1] = row.axis == 1;
+    a->from[0] = row.from;
+    a->from[1] = row.to;
+    a->face = -(double)INFINITY;
+    for (size_t v = 0; v < of->mesh.vertex_count; v++) a->face = fmax(a->face, sb_dot(of->mesh.vertices[v], direction));
+}
+
+/* Weight across a plate at u plates from the row's beginning: a B-spline two plates wide. The weights of all plates,
+   and of their mirror images at the row's ends, sum to 1 at each place. */
+static double across(double u, size_t plate, const sb_absorber *a, bool repeats)
+{
+    const double n = (double)a->plates, middle = (double)plate + 0.5;
+    if (repeats) return sb_column_weight(2 * remainder(u - middle, n));
+    double weight = sb_column_weight(2 * (u - middle));
+    if (plate == 0) weight += sb_column_weight(2 * (-u - middle));
+    if (plate + 1 == a->plates) weight += sb_column_weight(2 * (2 * n - u - middle));
+    return weight;
+}
+
+/* Adds a particle to the columns of the plates near it. moving: the first plate. */
+static void add(const sb_moving_body *moving, sb_vec3 at, double width, bool repeats, sb_exact *sums)
+{
+    const sb_absorber *a = moving->absorber;
+    const double along = at.x * a->side[0] + at.y * a->side[1], n = (double)a->plates;
+    const double u = (along - a->from[0]) / (a->from[1] - a->from[0]) * n;
+    if (!(u >= 0 && u <= n)) return;
+    const long middle = (long)fmin(floor(u), n - 1), count = (long)a->plates;
+    for (long k = middle - 1; k <= middle + 1; k++) {
+        if (!repeats && (k < 0 || k >= count)) continue;
+        const size_t plate = (size_t)((k + count) % count);
+        const sb_moving_body *one = &moving[plate];
+        const double from = one->absorber->face + one->displacement + one->absorber->distance;
+        const double ahead = (sb_dot(at, one->direction) - from) / width;
+        if (fabs(ahead) < 2) sb_exact_add(&sums[plate], sb_column_weight(ahead) * across(u, plate, a, repeats));
+    }
+}
+
+/* Waves across the basin at the start are none of the still water's: all plates have the row's mean depth there. */
+static void note_still(sb_absorber *a, double mean)
+{
+    if (!a->known) a->still = mean;
+    a->known = true;
+}
+
+int sb_plates_measure(sb_sim *sim, sb_moving_body *moving)
+{
+    const sb_absorber *a = moving->absorber;
+    const size_t count = a->plates, n = sim->state.n;
+    const double width = 0.5 * HALF * sim->model->spacing, pitch = (a->from[1] - a->from[0]) / (double)count;
+    const bool repeats = sb_scene_repeats(sim->scene, a->side[0] > 0 ? 0 : 1) && count > 2;
+    sb_exact *sums = sb_alloc(count, sizeof *sums);
+    bool enough = sums != NULL;
+#pragma omp parallel reduction(&& : enough)
+    {
+        sb_exact *own = enough ? sb_alloc(count, sizeof *own) : NULL;
+        enough = enough && own;
+#pragma omp for schedule(static) nowait
+        for (size_t i = 0; i < n; i++)
+            if (own) add(moving, sb_space_position(&sim->space, sim->state.position[i]), width, repeats, own);
+        if (own) sb_sums_merge(sums, own, count);
+        sb_free(own);
+    }
+    if (enough) {
+        sim->exchange->sum(sim, sums, count);
+        const double volume = (double)sim->constant.mass / (double)sim->constant.rest_density;
+        double mean = 0;
+        for (size_t k = 0; k < count; k++) {
+            const double depth = 2 * sb_exact_value(&sums[k]) * volume / (width * pitch);
+            moving[k].absorber->depth = depth;
+            mean += depth / (double)count;
+        }
+        for (size_t k = 0; k < count; k++) note_still(moving[k].absorber, mean);
+    }
+    sb_free(sums);
+    return enough ? 0 : -1;
+}

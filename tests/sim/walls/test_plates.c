@@ -1,0 +1,205 @@
+/* Push-plates: waves across a basin, which a paddle that is one cannot take, die out before plates that absorb on their
+   own. Their row of columns covers the water, the forces on them are those on one body, the balances close, the state
+   is saved and does not depend on threads. */
+#include "../../check.h"
+#include "base/archive.h"
+#include "sim/tank.h"
+#include "sim/walls/absorber.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Water in a basin of 0.8 x 1.6 m that is 0.06 m higher in one half: the lowest mode across it sloshes. */
+static const char text[] = "resolution: 0.1\nduration: 30\n"
+                           "domain: {min: [-0.6, 0, 0], max: [0.8, 1.6, 1.2]%s}\n"
+                           "water:\n  boxes:\n"
+                           "    - {min: [0, 0, 0], max: [0.8, 0.8, 1.2], level: 0.63}\n"
+                           "    - {min: [0, 0.8, 0], max: [0.8, 1.6, 1.2], level: 0.57}\n"
+                           "bodies:\n"
+                           "  - {name: paddle, shape: box, min: [-0.5, 0, 0], max: [0, 1.6, 1.2]}\n"
+                           "wavemakers:\n"
+                           "  - {name: taker, body: paddle, kind: absorber, depth: 0.6, period: 1.5%s}\n"
+                           "numerics: {settle_steps: 60, walls: %s}\n";
+
+typedef struct basin {
+    sb_scene scene;
+    sb_model model;
+    sb_sim *sim;
+} basin;
+
+static sb_status read_scene(const char *sides, const char *plates, const char *walls, sb_scene *scene, sb_error *error)
+{
+    const char *path = SB_BINARY_DIR "/plates.yaml";
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, text, sides, plates, walls);
+    assert_int_equal(fclose(file), 0);
+    return sb_scene_read(path, NULL, NULL, 0, scene, error);
+}
+
+static void make(basin *b, const char *sides, const char *plates, const char *walls)
+{
+    sb_error error = {0};
+    *b = (basin){0};
+    if (read_scene(sides, plates, walls, &b->scene, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sb_model_build(&b->scene, &b->model, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sb_sim_create(&b->scene, &b->model, &b->sim, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sb_sim_settle(b->sim, &error) != SB_OK) fail_msg("%s", error.text);
+}
+
+static void free_basin(basin *b)
+{
+    sb_sim_destroy(b->sim);
+    sb_model_free(&b->model);
+    sb_scene_free(&b->scene);
+}
+
+/* Root mean square over a time of the distance of the water's centre from the basin's middle across it, m: that of the
+   lowest mode. *imbalance: the largest of momentum. */
+static double slosh_until(basin *b, double from, double to, double *imbalance)
+{
+    double sum = 0;
+    int count = 0;
+    while (sb_sim_report(b->sim)->time < to) {
+        double y = 0;
+        assert_int_equal(tank_steps(b->sim, 1), 0);
+        *imbalance = fmax(*imbalance, sb_sim_report(b->sim)->momentum_imbalance);
+        if (sb_sim_report(b->sim)->time < from) continue;
+        for (size_t i = 0; i < b->sim->state.n; i++)
+            y += sb_space_position(&b->sim->space, b->sim->state.position[i]).y / (double)b->sim->state.n;
+        sum += (y - 0.8) * (y - 0.8);
+        count++;
+    }
+    return sqrt(sum / count);
+}
+
+static const char *const plates_of[] = {"", ", plates: {width: 0.4}"};
+
+static void plates_take_waves_across(void **state)
+{
+    (void)state;
+    for (int particles = 0; particles <= 1; particles++) {
+        double last[2];
+        for (int plates = 0; plates <= 1; plates++) {
+            basin b;
+            double imbalance = 0;
+            make(&b, "", plates_of[plates], particles ? "particles" : "images");
+            const double first = slosh_until(&b, 0, 1.5, &imbalance);
+            last[plates] = slosh_until(&b, 5, 6.6, &imbalance);
+            const sb_absorption one = sb_sim_absorption(b.sim, 0);
+            printf("walls of %s, plates %llu: slosh %.4g, then %.4g m; farthest %.3g m, apart %.3g m; lost %llu; "
+                   "momentum %.2g\n",
+                   particles ? "particles" : "images", (unsigned long long)one.plates, first, last[plates],
+                   one.farthest, one.apart, (unsigned long long)sb_sim_report(b.sim)->lost, imbalance);
+            assert_true(one.plates == (plates ? 4u : 0u));
+            assert_true(sb_sim_report(b.sim)->lost == 0 && one.limited == 0);
+            assert_true(imbalance < 1e-5);
+            sb_frame *frame = sb_sim_snapshot(b.sim);
+            assert_non_null(frame);
+            sb_vec3 moved[8] = {{0}};
+            for (size_t k = 0; k < frame->body_count; k++) moved[k] = frame->bodies[k].displacement;
+            sb_inside_report inside;
+            sb_error error = {0};
+            assert_int_equal(sb_model_first_inside(&b.model, frame->position, frame->count, frame->origin, moved, 0.05,
+                                                   &inside, &error),
+                             SB_OK);
+            assert_true(inside.count == 0);
+            sb_frame_release(frame);
+            free_basin(&b);
+        }
+        assert_true(last[1] < 0.4 * last[0]);
+    }
+}
+
+/* The mean over all plates of the depths before them is the volume before the row over its width, and the forces on the
+   plates are on the first. */
+static void plates_are_one_body(void **state)
+{
+    (void)state;
+    const char *const sides[] = {"", ", sides: {y_min: periodic, y_max: periodic}"};
+    for (int k = 0; k < 2; k++) {
+        basin b;
+        make(&b, sides[k], plates_of[1], "images");
+        assert_int_equal(b.model.body_count, 5);
+        assert_true(b.model.bodies[0].report && strcmp(b.model.bodies[0].name, "paddle") == 0);
+        assert_int_equal(tank_steps(b.sim, 20), 0);
+        double sum = 0, whole = 0;
+        for (size_t p = 0; p < 4; p++) sum += b.sim->walls.moving[p].absorber->depth;
+        for (size_t i = 0; i < b.sim->state.n; i++) {
+            const sb_vec3 at = sb_space_position(&b.sim->space, b.sim->state.position[i]);
+            whole += sb_column_weight((at.x - 0.3) / 0.15) / 0.15 * 0.001 / 1.6;
+        }
+        printf("depth %.6g m, by plates %.6g m\n", whole, sum / 4);
+        /* The particles have moved by one step since, and the plates by less than 1 mm. */
+        assert_true(fabs(sum / 4 - whole) < 2e-3 * whole);
+        const sb_vec3 force = sb_sim_impulse(b.sim, 0)->pressure;
+        const double weight = 0.5 * 1000 * 9.81 * 0.6 * 0.6 * 1.6 * sb_sim_report(b.sim)->time;
+        printf("impulse %.4g N s, of still water %.4g N s\n", -force.x, weight);
+        assert_true(fabs(-force.x - weight) < 0.1 * weight);
+        for (size_t p = 1; p < 4; p++) {
+            assert_true(sb_norm(sb_sim_impulse(b.sim, p)->pressure) == 0);
+            assert_false(b.model.bodies[p].report || sb_sim_absorption(b.sim, p).absorbs);
+        }
+        free_basin(&b);
+    }
+}
+
+static uint64_t run(basin *b, int threads, int steps)
+{
+    omp_set_num_threads(threads);
+    assert_int_equal(tank_steps(b->sim, steps), 0);
+    return sb_sim_hash(b->sim);
+}
+
+static void state_is_saved_and_independent_of_threads(void **state)
+{
+    (void)state;
+    const int before = omp_get_max_threads();
+    basin a, b;
+    make(&a, "", plates_of[1], "images");
+    make(&b, "", plates_of[1], "images");
+    run(&a, 1, 30);
+    sb_archive_out out = {0};
+    tank_save(a.sim, &out);
+    const uint64_t whole = run(&a, 1, 20);
+    assert_true(run(&b, 3, 50) == whole);
+    sb_error error = {0};
+    if (tank_load(b.sim, &out, &error) != SB_OK) fail_msg("%s", error.text);
+    assert_true(run(&b, 2, 20) == whole);
+    omp_set_num_threads(before);
+    sb_archive_out_free(&out);
+    free_basin(&a);
+    free_basin(&b);
+}
+
+static void unfit_plates_are_refused(void **state)
+{
+    (void)state;
+    const struct {
+        const char *plates, *expected;
+    } cases[] = {
+        {", plates: {width: 0.2}", "at least 3 spacings"},
+        {", plates: {width: 0.4}, direction: [1, 1, 0]", "is oblique"},
+        {", plates: {width: 0.4, height: 0.4}", "unknown key"},
+        {", plates: {width: -1}", "expected"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        sb_scene scene;
+        sb_error error = {0};
+        assert_int_equal(read_scene("", cases[k].plates, "images", &scene, &error), SB_BAD_INPUT);
+        if (!strstr(error.text, cases[k].expected)) fail_msg("%s: %s", cases[k].plates, error.text);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(plates_take_waves_across),
+        cmocka_unit_test(plates_are_one_body),
+        cmocka_unit_test(state_is_saved_and_independent_of_threads),
+        cmocka_unit_test(unfit_plates_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
