@@ -51,6 +51,10 @@ typedef struct sb_frame {
    step, along their velocities, as the step moved them. Velocities and pressures stay those of the step. */
 void sb_frame_carry(sb_frame *frame, double time);
 
+/* Returns the displacement of a body by its index in the model, else by its name; zero if the frame does not have it.
+ */
+sb_vec3 sb_frame_displacement(const sb_frame *frame, size_t index, const char *name);
+
 /* Creates a frame with all arrays allocated and one reference; the caller fills the arrays. NULL if memory runs out. */
 sb_frame *sb_frame_create(size_t count, size_t body_count);
 /* sb_frame_retain adds a reference and returns the frame. sb_frame_release removes one and frees the frame with the

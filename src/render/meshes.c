@@ -41,6 +41,7 @@ static const char face_vertex[] = "layout(location = 0) in vec3 position;\n"
                                   "layout(location = 2) in vec4 color;\n"
                                   "uniform mat4 clip;\n"
                                   "uniform vec3 shift;\n"
+                                  "uniform vec4 cut;\n" /* places with cut . (place, 1) < 0 are not drawn */
                                   "out vec3 place, slope;\n"
                                   "out vec4 paint;\n"
                                   "void main() {\n"
@@ -48,6 +49,7 @@ static const char face_vertex[] = "layout(location = 0) in vec3 position;\n"
                                   "  slope = normal;\n"
                                   "  paint = color;\n"
                                   "  gl_Position = clip * vec4(place, 1.0);\n"
+                                  "  gl_ClipDistance[0] = dot(cut, vec4(place, 1.0));\n"
                                   "}\n";
 
 /* The faces' colour and normal; the alpha of the colour is the kind of the body. Light is added by sb_compose_draw.
@@ -82,12 +84,14 @@ static const char face_fragment[] =
 static const char line_vertex[] = "layout(location = 0) in vec3 position;\n"
                                   "uniform mat4 view, projection;\n"
                                   "uniform vec3 shift;\n"
+                                  "uniform vec4 cut;\n"
                                   "out float depth;\n"
                                   "void main() {\n"
                                   "  vec4 e = view * vec4(position + shift, 1.0);\n"
                                   "  depth = -e.z;\n"
                                   "  e.xyz *= 0.9985;\n" /* in front of the faces it bounds */
                                   "  gl_Position = projection * e;\n"
+                                  "  gl_ClipDistance[0] = dot(cut, vec4(position + shift, 1.0));\n"
                                   "}\n";
 
 static const char line_fragment[] = "in float depth;\n"
@@ -269,12 +273,7 @@ void sb_meshes_destroy(sb_meshes *meshes)
 static void set_shift(GLuint program, const struct part *part, const sb_frame *frame)
 {
     float shift[3] = {0, 0, 0};
-    const sb_frame_body *body = NULL;
-    if (frame && part->body < frame->body_count && strcmp(frame->bodies[part->body].name, part->name) == 0)
-        body = &frame->bodies[part->body];
-    for (size_t i = 0; frame && !body && i < frame->body_count; i++)
-        if (strcmp(frame->bodies[i].name, part->name) == 0) body = &frame->bodies[i];
-    if (body) relative(shift, body->displacement, sb_vec(0, 0, 0));
+    if (frame) relative(shift, sb_frame_displacement(frame, part->body, part->name), sb_vec(0, 0, 0));
     sb_uniform_vec3(program, "shift", shift);
 }
 
@@ -301,6 +300,20 @@ void sb_meshes_draw_depth(const sb_meshes *meshes, const float clip[16])
     }
 }
 
+/* Cuts off what lies before the plane of a slice. */
+static void begin_cut(const sb_meshes *meshes, const sb_view *view, GLuint program)
+{
+    if (!view->cuts) return;
+    const sb_vec3 n = view->cut_normal;
+    sb_gl.Enable(GL_CLIP_DISTANCE0);
+    sb_uniform_vec4(program, "cut", -n.x, -n.y, -n.z, view->cut_at - sb_dot(n, meshes->origin));
+}
+
+static void end_cut(const sb_view *view)
+{
+    if (view->cuts) sb_gl.Disable(GL_CLIP_DISTANCE0);
+}
+
 void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const sb_view *view, const sb_frame *frame)
 {
     GLuint program = meshes->face_program;
@@ -311,6 +324,7 @@ void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const 
     sb_light_bind(light, view, program);
     sb_uniform_mat4(program, "clip", clip);
     sb_uniform_texture(program, "speckles", 0, meshes->speckles);
+    begin_cut(meshes, view, program);
     sb_uniform_float(program, "sea_level", light->sea_level - meshes->origin.z);
     /* The height over which terrain changes from sand to grass scales with the scene: 10 m at a plant, centimetres in a
        flume. */
@@ -331,6 +345,7 @@ void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const 
         sb_gl.DrawArrays(GL_TRIANGLES, part->first_corner, part->corners);
     }
     sb_gl.Disable(GL_CULL_FACE);
+    end_cut(view);
 }
 
 void sb_meshes_draw_edges(const sb_meshes *meshes, const sb_view *view, const sb_frame *frame)
@@ -342,6 +357,7 @@ void sb_meshes_draw_edges(const sb_meshes *meshes, const sb_view *view, const sb
     sb_uniform_mat4(program, "view", matrix);
     sb_uniform_mat4(program, "projection", view->projection);
     sb_uniform_float(program, "fade", 1.2 / view->far);
+    begin_cut(meshes, view, program);
     sb_gl.Enable(GL_DEPTH_TEST);
     sb_gl.DepthFunc(GL_LEQUAL);
     sb_gl.DepthMask(GL_FALSE);
@@ -355,6 +371,7 @@ void sb_meshes_draw_edges(const sb_meshes *meshes, const sb_view *view, const sb
         set_shift(program, &meshes->parts[i], frame);
         sb_gl.DrawArrays(GL_LINES, meshes->parts[i].first_line, meshes->parts[i].line_ends);
     }
+    end_cut(view);
     sb_gl.Disable(GL_BLEND);
     sb_gl.Disable(GL_LINE_SMOOTH);
     sb_gl.DepthMask(GL_TRUE);

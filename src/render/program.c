@@ -69,6 +69,11 @@ void sb_uniform_vec3(GLuint program, const char *name, const float *value)
     sb_gl.Uniform3fv(sb_gl.GetUniformLocation(program, name), 1, value);
 }
 
+void sb_uniform_vec4(GLuint program, const char *name, double x, double y, double z, double w)
+{
+    sb_gl.Uniform4f(sb_gl.GetUniformLocation(program, name), (float)x, (float)y, (float)z, (float)w);
+}
+
 void sb_uniform_mat4(GLuint program, const char *name, const float *value)
 {
     sb_gl.UniformMatrix4fv(sb_gl.GetUniformLocation(program, name), 1, GL_FALSE, value);

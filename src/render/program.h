@@ -16,6 +16,7 @@ sb_status sb_program_create(const char *name, const char *vertex, const char *co
 void sb_uniform_float(GLuint program, const char *name, double value);
 void sb_uniform_vec2(GLuint program, const char *name, double x, double y);
 void sb_uniform_vec3(GLuint program, const char *name, const float *value);
+void sb_uniform_vec4(GLuint program, const char *name, double x, double y, double z, double w);
 void sb_uniform_mat4(GLuint program, const char *name, const float *value);
 /* Binds a 2D texture to `unit` and assigns the unit to the sampler. */
 void sb_uniform_texture(GLuint program, const char *name, int unit, GLuint texture);

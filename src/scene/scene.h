@@ -392,6 +392,17 @@ typedef enum sb_water_color {
     SB_WATER_COLORS
 } sb_water_color;
 
+/* A plane through the water. What lies between it and the eye is not drawn. */
+typedef struct sb_slice {
+    sb_vec3 point, normal;       /* m; of any length, its sign has no meaning; a normal of 0: there is no slice */
+    bool behind;                 /* what lies behind the plane is drawn */
+    sb_water_color field;        /* colours the cut water */
+    double field_min, field_max; /* as color_min and color_max of the camera */
+    double vectors;              /* m between arrows; 0: none */
+    double vector_speed;         /* m/s, whose arrow has this length; 0: sqrt(g D) / 2 */
+    double streamlines;          /* m between streamlines; 0: none */
+} sb_slice;
+
 typedef struct sb_camera {
     char name[SB_NAME_MAX];
     sb_camera_kind kind;
@@ -406,6 +417,7 @@ typedef struct sb_camera {
     sb_water_style style;
     sb_water_color color;
     double color_min, color_max; /* in the unit of the colour's field; both 0: a range that fits the scene */
+    sb_slice slice;
 } sb_camera;
 
 /* A picture of a size of its own at one time. */
