@@ -11,6 +11,7 @@ static void destroy(sb_frame *frame)
     sb_free(frame->velocity);
     sb_free(frame->pressure);
     sb_free(frame->id);
+    sb_free(frame->density_error);
     sb_free(frame->bodies);
     sb_free(frame);
 }
@@ -34,6 +35,12 @@ sb_frame *sb_frame_create(size_t count, size_t body_count)
     }
     frame->references = 1;
     return frame;
+}
+
+bool sb_frame_add_density_error(sb_frame *frame)
+{
+    frame->density_error = sb_alloc_untouched(frame->count, sizeof *frame->density_error);
+    return frame->density_error != NULL;
 }
 
 void sb_frame_carry(sb_frame *frame, double time)

@@ -4,8 +4,7 @@
 #include "render/marks.h"
 #include "render/overlay.h"
 
-static sb_status draw_legends(const sb_shot *shot, const sb_slice_job *job, sb_image *image,
-                              sb_error *error)
+static sb_status draw_legends(const sb_shot *shot, const sb_slice_job *job, sb_image *image, sb_error *error)
 {
     const sb_camera *camera = shot->camera;
     const sb_legend water = {sb_fields[camera->color].label, sb_fields[camera->color].map, shot->range[0],
@@ -22,7 +21,7 @@ static sb_status draw_legends(const sb_shot *shot, const sb_slice_job *job, sb_i
 }
 
 sb_status sb_captions_draw(const sb_scene *scene, const sb_shot *shot, const sb_slice_job *job, sb_image *image,
-                            sb_error *error)
+                           sb_error *error)
 {
     const sb_render_settings *settings = &scene->render;
     sb_status status = sb_overlay_title(image, scene->title, shot->frame->status.time, error);

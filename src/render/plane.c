@@ -78,8 +78,7 @@ sb_plane_area sb_plane_visible(const sb_plane *plane, const sb_view *view, sb_ve
     const sb_vec3 middle = sb_scale(sb_add(min, max), 0.5), from = sb_sub(middle, plane->point);
     const double a = sb_dot(from, plane->across), b = sb_dot(from, plane->over), half = sb_norm(sb_sub(max, min));
     sb_plane_area area = {
-        .count = 4,
-        .corner = {{a - half, b - half}, {a + half, b - half}, {a + half, b + half}, {a - half, b + half}}};
+        .count = 4, .corner = {{a - half, b - half}, {a + half, b - half}, {a + half, b + half}, {a - half, b + half}}};
     const sb_vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (int k = 0; k < 3; k++) {
         clip_space(&area, plane, axes[k], min);

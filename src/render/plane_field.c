@@ -52,7 +52,8 @@ static bool place(const sb_plane *plane, const sb_frame *frame, const struct cel
     const double column = (a - cells->low[0]) / cells->range, row = (b - cells->low[1]) / cells->range;
     if (!(column >= 0 && row >= 0 && column < (double)cells->n[0] && row < (double)cells->n[1])) return false;
     *cell = (size_t)row * cells->n[0] + (size_t)column;
-    *out = (struct sb_plane_particle){.a = (float)(a - cells->low[0]), .b = (float)(b - cells->low[1]), .off = (float)off};
+    *out =
+        (struct sb_plane_particle){.a = (float)(a - cells->low[0]), .b = (float)(b - cells->low[1]), .off = (float)off};
     return true;
 }
 

@@ -28,16 +28,17 @@ typedef struct sb_plane_field {
     size_t node_capacity, near_capacity, first_capacity, solid_capacity;
     struct sb_plane_particle *near;
     size_t *first;
-    float *solid; /* per node, zero after the grid is laid: share of the cell around it that is solid, set by the owner */
+    float
+        *solid; /* per node, zero after the grid is laid: share of the cell around it that is solid, set by the owner */
 } sb_plane_field;
 
 /* Lays a grid over [low, high] (m) with half a spacing between nodes, or more if there were more than four million. */
 sb_status sb_plane_field_lay(sb_plane_field *field, const double low[2], const double high[2], double spacing,
                              sb_error *error);
 
-/* Interpolates the particles within two spacings to the nodes: a linear field is fitted by weighted least squares; where
-   particles are few, their weighted mean (Shepard) is used instead. A linear field is exact within the water. values: of
-   each particle, 0..1. The result is the same for any number of threads. */
+/* Interpolates the particles within two spacings to the nodes: a linear field is fitted by weighted least squares;
+   where particles are few, their weighted mean (Shepard) is used instead. A linear field is exact within the water.
+   values: of each particle, 0..1. The result is the same for any number of threads. */
 sb_status sb_plane_field_fill(sb_plane_field *field, const sb_plane *plane, const sb_frame *frame, const float *values,
                               const sb_density *density, int threads, sb_error *error);
 

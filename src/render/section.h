@@ -38,8 +38,8 @@ void sb_section_free(sb_section *section);
 bool sb_section_project(const sb_section_piece *piece, const sb_plane_map *map, double out[2][2]);
 
 /* Writes the share of each cell of a raster that is solid, 0..1, row by row: of the terrain within `area`, and of the
-   other closed bodies. to_raster: from the plane to cells. Surfaces without an inside are left out, but for the terrain,
-   which is solid below. terrain and bodies may be the same array, which then has both. */
+   other closed bodies. to_raster: from the plane to cells. Surfaces without an inside are left out, but for the
+   terrain, which is solid below. terrain and bodies may be the same array, which then has both. */
 sb_status sb_section_fill(const sb_section *section, const sb_solids *solids, const sb_plane *plane,
                           const sb_plane_area *area, const sb_plane_map *to_raster, int width, int height,
                           float *terrain, float *bodies, sb_error *error);

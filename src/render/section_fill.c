@@ -136,7 +136,8 @@ static bool is_below(const sb_solids *solids, const struct sb_solid *terrain, sb
             part[k] = (u.x - at.x) * (v.y - at.y) - (u.y - at.y) * (v.x - at.x);
         }
         const double sum = part[0] + part[1] + part[2];
-        const bool inside = (part[0] >= 0 && part[1] >= 0 && part[2] >= 0) || (part[0] <= 0 && part[1] <= 0 && part[2] <= 0);
+        const bool inside =
+            (part[0] >= 0 && part[1] >= 0 && part[2] >= 0) || (part[0] <= 0 && part[1] <= 0 && part[2] <= 0);
         if (!inside || sum == 0) continue;
         top = fmax(top, (part[0] * p[0].z + part[1] * p[1].z + part[2] * p[2].z) / sum);
     }

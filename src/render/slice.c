@@ -40,7 +40,8 @@ static sb_status fill_field(sb_slicer *s, const sb_slice_job *job, const sb_plan
     sb_status status = sb_plane_field_lay(field, area->low, area->high, job->frame->spacing, error);
     /* Cells lie around nodes. */
     const double scale = 1 / field->cell;
-    const sb_plane_map to_cells = {{{scale, 0, 0.5 - scale * field->low[0]}, {0, scale, 0.5 - scale * field->low[1]}, {0, 0, 1}}};
+    const sb_plane_map to_cells = {
+        {{scale, 0, 0.5 - scale * field->low[0]}, {0, scale, 0.5 - scale * field->low[1]}, {0, 0, 1}}};
     if (status == SB_OK)
         status = sb_section_fill(&s->section, &s->solids, plane, area, &to_cells, (int)field->n[0], (int)field->n[1],
                                  field->solid, field->solid, error);
@@ -76,8 +77,7 @@ sb_status sb_slicer_draw(sb_slicer *slicer, const sb_slice_job *job, sb_image *i
 {
     const sb_plane plane = sb_plane_of(job->slice, job->view->eye);
     const sb_plane_area area = sb_plane_visible(&plane, job->view, job->min, job->max);
-    sb_status status =
-        area.count > 0 ? compute(slicer, job, &plane, &area, image->width, image->height, error) : SB_OK;
+    sb_status status = area.count > 0 ? compute(slicer, job, &plane, &area, image->width, image->height, error) : SB_OK;
     if (status == SB_OK) sb_slice_paint(slicer, job, &plane, &area, image);
     return status;
 }

@@ -29,8 +29,7 @@ static double unit_of(const sb_image *image)
 
 static void mix(unsigned char *pixel, const float rgb[3], double alpha)
 {
-    for (int c = 0; c < 3; c++)
-        pixel[c] = (unsigned char)(pixel[c] + alpha * (255 * (double)rgb[c] - pixel[c]) + 0.5);
+    for (int c = 0; c < 3; c++) pixel[c] = (unsigned char)(pixel[c] + alpha * (255 * (double)rgb[c] - pixel[c]) + 0.5);
 }
 
 /* How much of a pixel the water covers: its edge, where the density is 0.5, is a pixel wide. */
@@ -118,7 +117,8 @@ static void paint_vector(const struct painting *p, double a, double b)
     const double scale = p->job->slice->vectors / p->job->vector_speed;
     double from[2], to[2];
     if (!sb_plane_wet(&sample) || !sb_plane_apply(&p->to_pixels, a, b, from)) return;
-    if (!sb_plane_apply(&p->to_pixels, a + scale * (double)sample.velocity[0], b + scale * (double)sample.velocity[1], to))
+    if (!sb_plane_apply(&p->to_pixels, a + scale * (double)sample.velocity[0], b + scale * (double)sample.velocity[1],
+                        to))
         return;
     if (is_far(p, from) || is_far(p, to) || is_solid(p, from)) return;
     if (hypot(to[0] - from[0], to[1] - from[1]) < 2 * p->unit) {

@@ -389,6 +389,7 @@ typedef enum sb_water_color {
     SB_COLOR_VORTICITY,
     SB_COLOR_DEPTH,
     SB_COLOR_MOMENTUM_FLUX,
+    SB_COLOR_DENSITY_ERROR,
     SB_WATER_COLORS
 } sb_water_color;
 
@@ -505,6 +506,18 @@ typedef struct sb_scene {
     sb_control_settings control;
     sb_output_settings output;
 } sb_scene;
+
+/* Whether a camera shows the density error, which frames contain only then. */
+static inline bool sb_scene_shows_density_error(const sb_scene *scene)
+{
+    for (size_t c = 0; c < scene->render.camera_count; c++) {
+        const sb_camera *camera = &scene->render.cameras[c];
+        const bool sliced = camera->slice.normal.x != 0 || camera->slice.normal.y != 0 || camera->slice.normal.z != 0;
+        if (camera->color == SB_COLOR_DENSITY_ERROR || (sliced && camera->slice.field == SB_COLOR_DENSITY_ERROR))
+            return true;
+    }
+    return false;
+}
 
 /* Whether a run of the scene draws pictures. */
 static inline bool sb_scene_draws(const sb_scene *scene)

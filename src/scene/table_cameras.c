@@ -102,7 +102,8 @@ static unsigned camera_variant(const void *item, const sb_yaml *map)
 }
 
 static const char *const style_words[] = {"surface", "particles", NULL};
-static const char *const color_words[] = {"speed", "pressure", "vorticity", "depth", "momentum_flux", NULL};
+static const char *const color_words[] = {"speed",         "pressure",      "vorticity", "depth",
+                                          "momentum_flux", "density_error", NULL};
 
 /* clang-format off */
 static const sb_key slice_keys[] = {

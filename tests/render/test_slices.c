@@ -26,8 +26,8 @@ static sb_frame *block(int side, sb_vec3 middle)
                 const int at[3] = {i, j, k};
                 const double corner[3] = {middle.x - 100, middle.y + 50, middle.z - 20};
                 for (size_t a = 0; a < 3; a++)
-                    frame->position[3 * n + a] = (float)(corner[a] + 0.5 * at[a] - 0.25 * (side - 1) +
-                                                         0.2 * (sb_random(3, 3 * n + a) - 0.5));
+                    frame->position[3 * n + a] =
+                        (float)(corner[a] + 0.5 * at[a] - 0.25 * (side - 1) + 0.2 * (sb_random(3, 3 * n + a) - 0.5));
             }
     memset(frame->pressure, 0, frame->count * sizeof(float));
     return frame;
