@@ -19,14 +19,13 @@ static const char help[] =
     "usage: shorebreak render RUN_DIR|LOG [--camera NAME] [--set KEY=VALUE]... [--out DIR] [--quiet]\n"
     "Draws pictures from the particle files of a run (output.particle_interval), or from a stream that lcm-logger\n"
     "recorded, without simulating.\n\n"
-    "The stills of the scene (render.stills) are drawn, too; alone, if render.interval is 0. A still shows the water "
-    "of the\n"
-    "the nearest particle file if none has its time.\n\n"
+    "The stills of a run's scene (render.stills) are drawn, too; alone, if render.interval is 0. A still shows the\n"
+    "water of the nearest particle file if none has its time.\n\n"
     "  --camera NAME    draw the pictures of this camera only (default: all of the scene's cameras)\n"
     "  --set KEY=VALUE  change a key of the run's scene, e.g. --set render.width=1920, or replace the cameras:\n"
     "                   --set 'render.cameras=[{name: top, eye: [0, 0, 900], target: [400, 1, 0]}]'\n"
-    "  --out DIR        write frames/<camera>/ and stills/<camera>/ to DIR (default: RUN_DIR, once the run has ended; "
-    "LOG-pictures)\n"
+    "  --out DIR        write frames/<camera>/ and stills/<camera>/ to DIR (default: RUN_DIR, once the run has\n"
+    "                   ended; LOG-pictures)\n"
     "  --quiet          print no progress\n";
 
 static sb_status choose_camera(const sb_scene *scene, const char *name, int *camera, sb_error *error)

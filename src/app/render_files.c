@@ -66,8 +66,9 @@ static void warn_of(const job *j, double still, double shown, bool near)
 {
     char text[200];
     if (near && shown != still)
-        snprintf(text, sizeof text, "render.stills: %g s: no particle file has this time; the still shows the water at %g s",
-                 still, shown);
+        snprintf(text, sizeof text,
+                 "render.stills: %g s: no particle file has this time; the still shows the water at %g s", still,
+                 shown);
     else if (!near)
         snprintf(text, sizeof text, "render.stills: %g s: no particle file is near this time, there is no still of it",
                  still);

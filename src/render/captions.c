@@ -1,23 +1,26 @@
 /* Draws title, time, legends, scale and north over a picture. */
 #include "render/captions.h"
 
+#include "render/colormap.h"
 #include "render/marks.h"
 #include "render/overlay.h"
 
+/* Draws the legends of the water, of the cut water and of loads from the lowest one up. */
 static sb_status draw_legends(const sb_shot *shot, const sb_slice_job *job, sb_image *image, sb_error *error)
 {
     const sb_camera *camera = shot->camera;
-    const sb_legend water = {sb_fields[camera->color].label, sb_fields[camera->color].map, shot->range[0],
-                             shot->range[1]};
-    if (!job) return sb_overlay_legend(image, 0, &water, error);
-    const sb_field *field = &sb_fields[camera->slice.field];
-    const sb_legend cut = {field->label, field->map, job->range[0], job->range[1]};
-    const bool same = camera->slice.field == camera->color && !(job->range[0] != shot->range[0]) &&
-                      !(job->range[1] != shot->range[1]);
-    const int slots = camera->slice.behind && !same ? 2 : 1;
-    sb_status status = sb_overlay_legend(image, slots - 1, &cut, error);
-    if (status == SB_OK && slots > 1) status = sb_overlay_legend(image, 0, &water, error);
-    return status == SB_OK ? sb_slice_legend(image, job, shot->key.target, slots, error) : status;
+    const sb_field *water = &sb_fields[camera->color], *cut = &sb_fields[camera->slice.field];
+    const bool same = job && cut == water && !(job->range[0] != shot->range[0]) && !(job->range[1] != shot->range[1]);
+    sb_legend legends[3];
+    int count = 0;
+    if (!job || (job->slice->behind && !same))
+        legends[count++] = (sb_legend){water->label, water->map, shot->range[0], shot->range[1]};
+    if (job) legends[count++] = (sb_legend){cut->label, cut->map, job->range[0], job->range[1]};
+    if (shot->load_max > 0 && (!job || job->slice->behind))
+        legends[count++] = (sb_legend){"mean pressure on faces  Pa", SB_COLORMAP_FIRE, 0, shot->load_max};
+    sb_status status = SB_OK;
+    for (int k = 0; k < count && status == SB_OK; k++) status = sb_overlay_legend(image, k, &legends[k], error);
+    return status == SB_OK && job ? sb_slice_legend(image, job, shot->key.target, count, error) : status;
 }
 
 sb_status sb_captions_draw(const sb_scene *scene, const sb_shot *shot, const sb_slice_job *job, sb_image *image,

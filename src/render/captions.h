@@ -12,6 +12,7 @@ typedef struct sb_shot {
     sb_view view;
     sb_vec3 min, max; /* m, scene: what is drawn */
     double range[2];  /* of the water's colours */
+    double load_max;  /* Pa, of the bodies' colours; 0: they show no loads */
 } sb_shot;
 
 /* Draws title, time, legends, scale bar and arrow to the north, as the scene says. job: of the camera's slice, NULL

@@ -5,6 +5,7 @@
 #include "render/captions.h"
 #include "render/compose.h"
 #include "render/context.h"
+#include "render/face_loads.h"
 #include "render/fields.h"
 #include "render/overhead.h"
 #include "render/soften.h"
@@ -26,6 +27,7 @@ struct sb_renderer {
     sb_compose compose;
     sb_values values;
     sb_overhead overhead;
+    sb_face_loads loads;   /* empty unless the scene shows them */
     sb_slicer slicer;      /* empty unless a camera has a slice */
     unsigned char *pixels; /* RGBA, rows from the bottom up as read from OpenGL */
 };
@@ -120,6 +122,8 @@ sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_re
     r->pixels = sb_alloc((size_t)width * (size_t)height, 4);
     if (!r->pixels) status = sb_fail_memory(error, "a picture");
     if (status == SB_OK) status = make_slicer(r, model, error);
+    if (status == SB_OK && scene->render.loads)
+        status = sb_face_loads_create(model, scene->resolution, &r->loads, error);
     if (status == SB_OK) status = sb_context_create(&r->context, error);
     if (status == SB_OK) status = sb_context_enter(r->context, error);
     if (status == SB_OK) {
@@ -160,6 +164,21 @@ static void draw_picture(sb_renderer *r, const sb_frame *frame, const sb_scenery
     sb_gl.ReadPixels(0, 0, r->width, r->height, GL_RGBA, GL_UNSIGNED_BYTE, r->pixels);
 }
 
+static double load_max(const sb_renderer *r)
+{
+    const double chosen = r->scene->render.load_max;
+    const double most = 0.1 * r->scene->fluid.density * r->scene->fluid.gravity * r->depth;
+    return chosen > 0 ? chosen : most > 0 ? most : 1;
+}
+
+/* Gives the bodies the colours of their loads; they are then drawn again. */
+static void tint(sb_renderer *r, const sb_frame *frame, sb_scenery *scenery)
+{
+    sb_face_loads_compute(&r->loads, frame, load_max(r));
+    sb_meshes_recolor(r->meshes, r->loads.colors[0], 3 * r->loads.triangle_count);
+    scenery->drawn = false;
+}
+
 static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, size_t number, const sb_view *view,
                              const double range[2], sb_error *error)
 {
@@ -167,6 +186,7 @@ static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, size_t numbe
     sb_scenery *scenery = &r->sceneries[number % SCENERIES];
     sb_status status = SB_OK;
     if (scenery->width == 0) status = sb_scenery_create(r->width, r->height, scenery, error);
+    if (status == SB_OK && r->scene->render.loads) tint(r, frame, scenery);
     if (status == SB_OK) status = sb_scenery_draw(scenery, r->meshes, &r->light, view, frame, error);
     if (status == SB_OK) status = sb_values_compute(&r->values, frame, camera->color, range[0], range[1], error);
     if (status == SB_OK)
@@ -200,6 +220,7 @@ static sb_shot shot_of(const sb_renderer *r, const sb_frame *frame, size_t numbe
     shot.min = sb_sub(r->min, sb_vec(margin, margin, margin));
     shot.max = sb_add(r->max, sb_vec(margin, margin, margin));
     shot.view = sb_view_create(&shot.key, (double)r->width / r->height, shot.min, shot.max);
+    shot.load_max = r->scene->render.loads ? load_max(r) : 0;
     if (is_sliced(camera)) sb_slice_cut(&camera->slice, &shot.view);
     find_range(r, camera->color, camera->color_min, camera->color_max, shot.range);
     return shot;
@@ -268,6 +289,7 @@ void sb_renderer_destroy(sb_renderer *renderer)
     sb_context_destroy(r->context);
     sb_values_free(&r->values);
     sb_slicer_free(&r->slicer);
+    sb_face_loads_free(&r->loads);
     sb_free(r->pixels);
     sb_free(r);
 }
