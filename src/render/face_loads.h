@@ -16,8 +16,8 @@ typedef struct sb_load_face {
 typedef struct sb_face_loads {
     size_t face_count;
     sb_load_face *faces;
-    size_t triangle_count; /* of all bodies */
-    uint32_t *face;        /* per triangle; UINT32_MAX: of a body without a load */
+    size_t triangle_count;                   /* of all bodies */
+    uint32_t *face;                          /* per triangle; UINT32_MAX: of a body without a load */
     unsigned char (*paint)[4], (*colors)[4]; /* per corner: without a load, and of the frame computed last */
     struct sb_load_grid *grid;
 } sb_face_loads;
