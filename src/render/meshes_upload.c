@@ -164,9 +164,6 @@ void sb_meshes_destroy(sb_meshes *meshes)
     sb_gl.DeleteBuffers(1, &meshes->line_buffer);
     sb_gl.DeleteBuffers(1, &meshes->color_buffer);
     sb_gl.DeleteTextures(1, &meshes->speckles);
-    sb_gl.DeleteProgram(meshes->face_program);
-    sb_gl.DeleteProgram(meshes->depth_program);
-    sb_gl.DeleteProgram(meshes->line_program);
     sb_free(meshes->parts);
     sb_free(meshes);
 }

@@ -7,8 +7,9 @@
 
 #include <stddef.h>
 
-/* Compiles and links a program. `common` (may be NULL) is inserted before the fragment source. SB_FAILED contains the
-   beginning of the compiler's message. 0 is never a valid program. */
+/* Compiles and links a program, or returns the one that the current context has of these sources. It belongs to the
+   context: it must not be deleted. `common` (may be NULL) is inserted before the fragment source. SB_FAILED contains
+   the beginning of the compiler's message. 0 is never a valid program. */
 sb_status sb_program_create(const char *name, const char *vertex, const char *common, const char *fragment,
                             GLuint *program, sb_error *error);
 
