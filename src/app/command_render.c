@@ -3,14 +3,13 @@
 #include "app/grid_water.h"
 #include "app/lock.h"
 #include "app/options.h"
+#include "app/render_files.h"
 #include "app/render_log.h"
 #include "app/run_files.h"
 #include "base/nearest.h"
-#include "output/foam_files.h"
 #include "output/particle_format.h"
 #include "output/video.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -20,10 +19,13 @@ static const char help[] =
     "usage: shorebreak render RUN_DIR|LOG [--camera NAME] [--set KEY=VALUE]... [--out DIR] [--quiet]\n"
     "Draws pictures from the particle files of a run (output.particle_interval), or from a stream that lcm-logger\n"
     "recorded, without simulating.\n\n"
+    "The stills of a run's scene (render.stills) are drawn, too; alone, if render.interval is 0. A still shows the\n"
+    "water of the nearest particle file if none has its time.\n\n"
     "  --camera NAME    draw the pictures of this camera only (default: all of the scene's cameras)\n"
     "  --set KEY=VALUE  change a key of the run's scene, e.g. --set render.width=1920, or replace the cameras:\n"
     "                   --set 'render.cameras=[{name: top, eye: [0, 0, 900], target: [400, 1, 0]}]'\n"
-    "  --out DIR        write frames/<camera>/ to DIR (default: RUN_DIR, once the run has ended; LOG-pictures)\n"
+    "  --out DIR        write frames/<camera>/ and stills/<camera>/ to DIR (default: RUN_DIR, once the run has\n"
+    "                   ended; LOG-pictures)\n"
     "  --quiet          print no progress\n";
 
 static sb_status choose_camera(const sb_scene *scene, const char *name, int *camera, sb_error *error)
@@ -53,33 +55,9 @@ static sb_status read_list(const char *run, const sb_particle_format *format, sb
     return status == SB_OK ? format->read_list(path, list, error) : status;
 }
 
-/* A particle file has the state at the end of the step that passed a multiple of the interval: its picture shows the
-   water at the multiple. */
-static void carry(sb_frame *frame, double interval)
+static void warn(const char *text)
 {
-    static const double ROUNDING = 1e-9; /* as in consumer.c */
-    if (interval > 0) sb_frame_carry(frame, interval * floor(frame->status.time / interval + ROUNDING));
-}
-
-static sb_status draw_all(const char *run, const sb_particle_format *format, const sb_particle_list *list,
-                          sb_pictures *pictures, bool quiet, sb_error *error)
-{
-    sb_consumer_work work = sb_pictures_work(pictures);
-    sb_status status = work.open(pictures, error);
-    for (size_t i = 0; i < list->count && status == SB_OK; i++) {
-        char path[SB_PATH_MAX];
-        sb_frame *frame = NULL;
-        status = sb_path_join(path, run, list->entries[i].file, error);
-        if (status == SB_OK) status = format->read(path, &frame, error);
-        if (status == SB_OK && pictures->scene->foam.enabled) status = sb_foam_files_read(run, i + 1, frame, error);
-        if (status == SB_OK) carry(frame, pictures->scene->output.particle_interval);
-        if (status == SB_OK) status = work.handle(pictures, frame, error);
-        sb_frame_release(frame);
-        if (!quiet && status == SB_OK)
-            printf("t = %g s: picture %zu of %zu\n", list->entries[i].time, i + 1, list->count);
-    }
-    work.close(pictures);
-    return status;
+    fprintf(stderr, "shorebreak: warning: %s\n", text);
 }
 
 static void make_videos(const char *directory, const sb_scene *scene, int camera, uint64_t count)
@@ -147,7 +125,7 @@ static sb_status open_log(job *j, const sb_options *options, sb_error *error)
 static sb_status draw_pictures(const job *j, sb_pictures *pictures, sb_error *error)
 {
     sb_status status = j->is_log ? sb_render_log_draw(j->source, pictures, j->quiet, error)
-                                 : draw_all(j->source, j->format, &j->list, pictures, j->quiet, error);
+                                 : sb_render_files(j->source, j->format, &j->list, pictures, j->quiet, warn, error);
     const uint64_t count = pictures->film.count;
     if (status == SB_OK && count > 1) make_videos(j->directory, &j->scene, j->camera, count);
     return status;

@@ -21,7 +21,7 @@ static const double MODEL_FLUID_BYTES = 56, MODEL_WALL_BYTES = 48;
 
 /* Per particle of a frame; the largest size and number of the frames that may wait; per particle of the stream's copy.
  */
-static const double FRAME_BYTES = 32, WAITING_BYTES = 256e6, STREAM_BYTES = 12;
+static const double FRAME_BYTES = 32, DENSITY_ERROR_BYTES = 4, WAITING_BYTES = 256e6, STREAM_BYTES = 12;
 enum { MOST_WAITING = 3 };
 
 size_t sb_room_waiting(size_t fluid_count)
@@ -113,7 +113,8 @@ static double tension_bytes(const sb_scene *scene, const sb_model *model)
 
 double sb_room_needed(const sb_scene *scene, const sb_model *model)
 {
-    const double fluid = FLUID_BYTES + PAIR_BYTES * count_neighbours(scene) + FRAME_BYTES * count_frames(scene, model) +
+    const double frame = FRAME_BYTES + (sb_scene_shows_density_error(scene) ? DENSITY_ERROR_BYTES : 0);
+    const double fluid = FLUID_BYTES + PAIR_BYTES * count_neighbours(scene) + frame * count_frames(scene, model) +
                          (scene->stream.enabled ? STREAM_BYTES : 0);
     return PROGRAM_BYTES + picture_bytes(scene, model) + map_bytes(scene) + foam_bytes(scene, model) +
            (double)model->fluid_count * (fluid + IMPULSE_BYTES * (double)model->body_count) +

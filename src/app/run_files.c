@@ -359,6 +359,7 @@ sb_status sb_run_files_find_pictures(const char *directory, const sb_scene *scen
     *files = (sb_run_files){0};
     sb_status status = read_earlier(&f, &text);
     if (status == SB_OK) status = look_at_folder(&f, CAMERA);
+    if (status == SB_OK && scene->render.still_count > 0) status = look_at_folder(&f, STILLS);
     for (size_t c = 0; status == SB_OK && c < scene->render.camera_count; c++) {
         if (camera >= 0 && (size_t)camera != c) continue;
         snprintf(film, sizeof film, "%.100s.mp4", scene->render.cameras[c].name);

@@ -3,6 +3,8 @@
 
 #include "base/memory.h"
 
+#include <string.h>
+
 static void free_foam(sb_frame_foam *foam)
 {
     sb_free(foam->position);
@@ -20,6 +22,7 @@ static void destroy(sb_frame *frame)
     sb_free(frame->velocity);
     sb_free(frame->pressure);
     sb_free(frame->id);
+    sb_free(frame->density_error);
     sb_free(frame->bodies);
     sb_free(frame);
 }
@@ -62,6 +65,12 @@ int sb_frame_add_foam(sb_frame *frame, size_t count)
     return 0;
 }
 
+bool sb_frame_add_density_error(sb_frame *frame)
+{
+    frame->density_error = sb_alloc_untouched(frame->count, sizeof *frame->density_error);
+    return frame->density_error != NULL;
+}
+
 void sb_frame_carry(sb_frame *frame, double time)
 {
     const double dt = time - frame->status.time;
@@ -71,6 +80,15 @@ void sb_frame_carry(sb_frame *frame, double time)
     for (size_t b = 0; b < frame->body_count; b++)
         frame->bodies[b].displacement = sb_madd(frame->bodies[b].displacement, dt, frame->bodies[b].velocity);
     frame->status.time = time;
+}
+
+sb_vec3 sb_frame_displacement(const sb_frame *frame, size_t index, const char *name)
+{
+    if (index < frame->body_count && strcmp(frame->bodies[index].name, name) == 0)
+        return frame->bodies[index].displacement;
+    for (size_t b = 0; b < frame->body_count; b++)
+        if (strcmp(frame->bodies[b].name, name) == 0) return frame->bodies[b].displacement;
+    return sb_vec(0, 0, 0);
 }
 
 /* The reference count is the only part of a published frame that changes, hence the casts. */

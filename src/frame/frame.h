@@ -34,16 +34,17 @@ enum { SB_FRAME_FILM = 1, SB_FRAME_STILL = 2 };
 /* Read-only once published. The arrays have one entry (or 3 floats) per particle; positions are relative to origin. */
 typedef struct sb_frame {
     sb_frame_status status;
-    uint64_t index;     /* 1, 2, ... over all frames of the run, for all consumers together */
-    unsigned drawn;     /* SB_FRAME_FILM and SB_FRAME_STILL: what is drawn of it; 0: a picture of the film */
-    sb_vec3 origin;     /* m, added to every position */
-    double spacing;     /* m */
-    size_t count;       /* fluid particles */
-    float *position;    /* m, 3 per particle */
-    float *velocity;    /* m/s, 3 per particle */
-    float *pressure;    /* Pa */
-    uint32_t *id;       /* stable through the run */
-    sb_frame_foam foam; /* empty unless the scene has foam */
+    uint64_t index;       /* 1, 2, ... over all frames of the run, for all consumers together */
+    unsigned drawn;       /* SB_FRAME_FILM and SB_FRAME_STILL: what is drawn of it; 0: a picture of the film */
+    sb_vec3 origin;       /* m, added to every position */
+    double spacing;       /* m */
+    size_t count;         /* fluid particles */
+    float *position;      /* m, 3 per particle */
+    float *velocity;      /* m/s, 3 per particle */
+    float *pressure;      /* Pa */
+    uint32_t *id;         /* stable through the run */
+    float *density_error; /* density over that at rest, minus 1, when the step began; NULL: it is not known */
+    sb_frame_foam foam;   /* empty unless the scene has foam */
     size_t body_count;
     sb_frame_body *bodies;
     _Atomic int references;
@@ -54,11 +55,18 @@ typedef struct sb_frame {
    step. */
 void sb_frame_carry(sb_frame *frame, double time);
 
+/* Returns the displacement of a body by its index in the model, else by its name; zero if the frame does not have it.
+ */
+sb_vec3 sb_frame_displacement(const sb_frame *frame, size_t index, const char *name);
+
 /* Creates a frame with all arrays allocated and one reference; the caller fills the arrays. NULL if memory runs out. */
 sb_frame *sb_frame_create(size_t count, size_t body_count);
 /* Allocates the arrays of the foam of a frame without foam that is not published yet. Returns 0, or -1 without memory;
    the frame then has no foam. */
 int sb_frame_add_foam(sb_frame *frame, size_t count);
+/* Adds the array density_error to a frame that is not published yet, without initialising it. False if memory runs
+   out. */
+bool sb_frame_add_density_error(sb_frame *frame);
 /* sb_frame_retain adds a reference and returns the frame. sb_frame_release removes one and frees the frame with the
    last. NULL has no effect. */
 const sb_frame *sb_frame_retain(const sb_frame *frame);

@@ -204,12 +204,22 @@ static sb_status check_numbers(const source *file, const sb_frame *frame, sb_err
     if (!all_finite(frame->position, 3 * frame->count) || !all_finite(frame->velocity, 3 * frame->count) ||
         !all_finite(frame->pressure, frame->count))
         return damaged(file, error, "particles whose position, velocity or pressure is not finite");
+    if (frame->density_error && !all_finite(frame->density_error, frame->count))
+        return damaged(file, error, "particles whose density error is not finite");
     for (size_t b = 0; b < frame->body_count; b++) {
         const sb_frame_body *body = &frame->bodies[b];
         if (!sb_isfinite(body->displacement) || !sb_isfinite(body->force) || !sb_isfinite(body->moment))
             return damaged(file, error, "a body whose displacement, force or moment is not finite");
     }
     return SB_OK;
+}
+
+/* Only runs whose cameras show it write it. */
+static sb_status read_density_error(source *file, sb_frame *frame, sb_error *error)
+{
+    if (!strstr(file->header, "Name=\"density_error\"")) return SB_OK;
+    if (!sb_frame_add_density_error(frame)) return sb_fail_memory(error, file->path);
+    return read_array(file, "density_error", "Float32", 4, 1, file->points, frame->density_error, error);
 }
 
 static sb_status read_frame(source *file, sb_frame **frame, sb_error *error)
@@ -228,6 +238,7 @@ static sb_status read_frame(source *file, sb_frame **frame, sb_error *error)
     if (status == SB_OK) status = read_array(file, "velocity", "Float32", 4, 3, file->points, made->velocity, error);
     if (status == SB_OK) status = read_array(file, "pressure", "Float32", 4, 1, file->points, made->pressure, error);
     if (status == SB_OK) status = read_array(file, "id", "UInt32", 4, 1, file->points, made->id, error);
+    if (status == SB_OK) status = read_density_error(file, made, error);
     if (status == SB_OK) status = check_numbers(file, made, error);
     if (status != SB_OK)
         sb_frame_release(made);

@@ -220,6 +220,8 @@ sb_status sb_vtp_write(const char *path, const sb_frame *frame, uint64_t index, 
         add(&file, (array){"velocity", "Float32", 4, 3, frame->count, frame->velocity, NULL});
         add(&file, (array){"pressure", "Float32", 4, 1, frame->count, frame->pressure, NULL});
         add(&file, (array){"id", "UInt32", 4, 1, frame->count, frame->id, NULL});
+        if (frame->density_error)
+            add(&file, (array){"density_error", "Float32", 4, 1, frame->count, frame->density_error, NULL});
         file.point_count = file.total - file.field_count;
         const places at = {frame->origin, frame->position};
         add_geometry(&file, &at, produce_points);

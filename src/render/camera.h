@@ -5,6 +5,8 @@
 #include "base/vec.h"
 #include "scene/scene.h"
 
+#include <stdbool.h>
+
 /* Returns a camera with keys at `time`. Before the first key and after the last key the camera is at rest. From key to
    key it moves by the `ease` of the first: smoothly (cubic Hermite interpolation with Catmull-Rom slopes, at rest at
    both ends, and with the velocity of a neighbour that is not smooth), with constant velocity, or with constant
@@ -18,6 +20,9 @@ typedef struct sb_view {
     double tangent, aspect;  /* tangent of half the vertical angle; width over height */
     double near, far;        /* m, clip planes that enclose the box */
     float projection[16];    /* column-major */
+    bool cuts;               /* places with cut_normal . place > cut_at (m, scene) are not drawn */
+    sb_vec3 cut_normal;      /* unit */
+    double cut_at;
 } sb_view;
 sb_view sb_view_create(const sb_camera_key *key, double aspect, sb_vec3 min, sb_vec3 max);
 

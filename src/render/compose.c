@@ -214,7 +214,6 @@ sb_status sb_compose_create(bool foaming, sb_compose *compose, sb_error *error)
 
 void sb_compose_destroy(sb_compose *compose)
 {
-    for (int pass = 0; pass < SB_COMPOSE_PASSES; pass++) sb_gl.DeleteProgram(compose->programs[pass]);
     sb_gl.DeleteVertexArrays(1, &compose->empty);
     sb_gl.DeleteTextures(SB_COLORMAPS, compose->colors);
     *compose = (sb_compose){0};

@@ -36,7 +36,41 @@ enum { SIDE = 8 };
 struct sb_context {
     OSMesaContext mesa;
     unsigned char buffer[SIDE * SIDE * 4];
+    sb_programs programs;
+    bool used; /* before it was created again: errors of that time do not count */
 };
+
+static _Thread_local sb_context *current;
+
+/* Contexts that were destroyed. A run has one renderer for its film and one at a time for stills. */
+enum { KEPT_MAX = 2 };
+static struct {
+    pthread_mutex_t lock;
+    size_t count;
+    sb_context *list[KEPT_MAX];
+} kept = {.lock = PTHREAD_MUTEX_INITIALIZER};
+
+sb_programs *sb_context_programs(void)
+{
+    return &current->programs;
+}
+
+static sb_context *take_kept(void)
+{
+    pthread_mutex_lock(&kept.lock);
+    sb_context *context = kept.count > 0 ? kept.list[--kept.count] : NULL;
+    pthread_mutex_unlock(&kept.lock);
+    return context;
+}
+
+static bool keep(sb_context *context)
+{
+    pthread_mutex_lock(&kept.lock);
+    const bool room = kept.count < KEPT_MAX;
+    if (room) kept.list[kept.count++] = context;
+    pthread_mutex_unlock(&kept.lock);
+    return room;
+}
 
 sb_gl_functions sb_gl;
 
@@ -96,6 +130,8 @@ sb_status sb_context_create(sb_context **context, sb_error *error)
     pthread_once(&once, prepare);
     if (mesa.error.status != SB_OK)
         return sb_fail(error, SB_FAILED, "pictures cannot be drawn without OSMesa: %.900s", mesa.error.text);
+    *context = take_kept();
+    if (*context) return SB_OK;
     sb_context *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "the drawing context");
     static const int attributes[] = {OSMESA_FORMAT,
@@ -128,18 +164,24 @@ sb_status sb_context_enter(sb_context *context, sb_error *error)
 {
     if (!mesa.make_current(context->mesa, context->buffer, GL_UNSIGNED_BYTE, SIDE, SIDE))
         return sb_fail(error, SB_FAILED, "OSMesa cannot make its context current");
+    current = context;
+    for (int k = 0; context->used && k < 16 && sb_gl.GetError() != GL_NO_ERROR; k++) continue;
+    context->used = false;
     return SB_OK;
 }
 
 void sb_context_leave(sb_context *context)
 {
     (void)context;
+    current = NULL;
     mesa.make_current(NULL, NULL, 0, 0, 0);
 }
 
 void sb_context_destroy(sb_context *context)
 {
     if (!context) return;
+    context->used = true;
+    if (keep(context)) return;
     mesa.destroy(context->mesa);
     sb_free(context);
 }

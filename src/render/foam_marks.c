@@ -90,6 +90,7 @@ void sb_foam_marks(const sb_frame *frame, const sb_view *view, const sb_foam_gro
         const float to_eye[3] = {axes.eye[0] - at[0], axes.eye[1] - at[1], axes.eye[2] - at[2]};
         const float place[3] = {-sb_dot3(to_eye, axes.right), -sb_dot3(to_eye, axes.up), sb_dot3(to_eye, axes.back)};
         marks[p] = (sb_foam_mark){0};
-        if (place[2] > lens.near && !sb_lens_outside(&axes, to_eye)) marks[p] = mark_of(&lens, ground, frame, p, place);
+        if (place[2] > lens.near && !sb_lens_outside(&axes, to_eye) && !sb_lens_cut(&axes, at))
+            marks[p] = mark_of(&lens, ground, frame, p, place);
     }
 }

@@ -16,7 +16,7 @@
     F(GenRenderbuffers) F(GenTextures) F(GenVertexArrays) F(GetError) F(GetProgramInfoLog) F(GetProgramiv) \
     F(GetShaderInfoLog) F(GetShaderiv) F(GetTexImage) F(GetUniformLocation) F(LineWidth) F(LinkProgram) \
     F(PolygonOffset) F(ReadBuffer) F(ReadPixels) F(RenderbufferStorage) F(ShaderSource) \
-    F(TexImage2D) F(TexParameteri) F(Uniform1f) F(Uniform1i) F(Uniform2f) F(Uniform2i) F(Uniform3fv) \
+    F(TexImage2D) F(TexParameteri) F(Uniform1f) F(Uniform1i) F(Uniform2f) F(Uniform2i) F(Uniform3fv) F(Uniform4f) \
     F(UniformMatrix4fv) F(UseProgram) F(VertexAttribPointer) F(Viewport)
 /* clang-format on */
 

@@ -9,6 +9,8 @@
 typedef struct sb_lens {
     float eye[3], right[3], up[3], back[3];
     float tangent, aspect, near, margin;
+    bool cuts;
+    float cut_normal[3], cut_at; /* as in sb_view */
 } sb_lens;
 
 /* margin: m by which a point may be outside of the view. */
@@ -24,6 +26,9 @@ static inline sb_lens sb_lens_of(const sb_view *view, sb_vec3 origin, double mar
         .aspect = (float)view->aspect,
         .near = (float)view->near,
         .margin = (float)margin,
+        .cuts = view->cuts,
+        .cut_normal = {(float)view->cut_normal.x, (float)view->cut_normal.y, (float)view->cut_normal.z},
+        .cut_at = (float)(view->cut_at - sb_dot(view->cut_normal, origin)),
     };
 }
 
@@ -41,6 +46,12 @@ static inline bool sb_lens_outside(const sb_lens *lens, const float *to_eye)
            fabsf(sb_dot3(to_eye, lens->up)) > half + lens->margin * (1 + lens->tangent) ||
            fabsf(sb_dot3(to_eye, lens->right)) >
                half * lens->aspect + lens->margin * (1 + lens->tangent * lens->aspect);
+}
+
+/* Whether the plane of a slice cuts a point off. */
+static inline bool sb_lens_cut(const sb_lens *lens, const float *point)
+{
+    return lens->cuts && sb_dot3(point, lens->cut_normal) > lens->cut_at;
 }
 
 #endif

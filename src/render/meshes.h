@@ -15,6 +15,13 @@ typedef struct sb_meshes sb_meshes;
 sb_status sb_meshes_create(const sb_model *model, sb_vec3 origin, sb_meshes **meshes, sb_error *error);
 void sb_meshes_destroy(sb_meshes *meshes);
 
+/* Writes the colour of a body's corners: the square root of the linear colour, and 255 for the colours of terrain. */
+void sb_meshes_paint(const sb_model_body *body, unsigned char paint[4]);
+
+/* Replaces the colours of all corners, 4 bytes each: three per triangle, in the order of the model's bodies and their
+ * triangles. */
+void sb_meshes_recolor(sb_meshes *meshes, const unsigned char *colors, size_t corners);
+
 /* Draws only the depth of the closed bodies and of the terrain that never move, with the given clip matrix. */
 void sb_meshes_draw_depth(const sb_meshes *meshes, const float clip[16]);
 

@@ -86,8 +86,6 @@ sb_status sb_occlusion_create(int width, int height, sb_occlusion *occlusion, sb
 
 void sb_occlusion_destroy(sb_occlusion *occlusion)
 {
-    sb_gl.DeleteProgram(occlusion->program);
-    sb_gl.DeleteProgram(occlusion->blur_program);
     sb_gl.DeleteVertexArrays(1, &occlusion->empty);
     sb_gl.DeleteTextures(2, occlusion->texture);
     sb_gl.DeleteFramebuffers(2, occlusion->framebuffer);

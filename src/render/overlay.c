@@ -29,12 +29,20 @@ static void fill(sb_image *image, double x0, double y0, double x1, double y1, co
         }
 }
 
-static sb_status color_bar(sb_image *image, double unit, const sb_legend *legend, sb_error *error)
+static double unit_of(const sb_image *image)
+{
+    const double unit = image->height / 720.0;
+    return unit < 0.6 ? 0.6 : unit;
+}
+
+sb_status sb_overlay_legend(sb_image *image, int slot, const sb_legend *legend, sb_error *error)
 {
     static const float dark[3] = {0.02f, 0.05f, 0.09f};
+    if (image->height < SB_OVERLAY_HEIGHT_MIN) return SB_OK;
+    const double unit = unit_of(image);
     double width = 300 * unit, thick = 13 * unit;
     width = width < 0.5 * image->width ? width : 0.5 * image->width;
-    double x = image->width - 34 * unit - width, y = image->height - 58 * unit;
+    double x = image->width - 34 * unit - width, y = image->height - (58 + SB_OVERLAY_SLOT * slot) * unit;
     fill(image, x - 1.5, y - 1.5, x + width + 1.5, y + thick + 1.5, dark, 0.55);
     for (int column = 0; column < (int)lround(width); column++) {
         float rgb[3];
@@ -58,11 +66,10 @@ static sb_status color_bar(sb_image *image, double unit, const sb_legend *legend
     return status;
 }
 
-sb_status sb_overlay_draw(sb_image *image, const char *title, double time, const sb_legend *legend, sb_error *error)
+sb_status sb_overlay_title(sb_image *image, const char *title, double time, sb_error *error)
 {
     if (image->height < SB_OVERLAY_HEIGHT_MIN) return SB_OK;
-    double unit = image->height / 720.0;
-    unit = unit < 0.6 ? 0.6 : unit;
+    const double unit = unit_of(image);
     char clock[64];
     snprintf(clock, sizeof clock, "t = %.*f s", time < 10 ? 2 : 1, time);
     double line = 44 * unit;
@@ -74,6 +81,5 @@ sb_status sb_overlay_draw(sb_image *image, const char *title, double time, const
         status = sb_font_draw(image, 30 * unit, line, wide > room ? letters * room / wide : letters, ink, title, error);
         line += 31 * unit;
     }
-    if (status == SB_OK) status = sb_font_draw(image, 30 * unit, line, 15 * unit, ink, clock, error);
-    return status == SB_OK ? color_bar(image, unit, legend, error) : status;
+    return status == SB_OK ? sb_font_draw(image, 30 * unit, line, 15 * unit, ink, clock, error) : status;
 }

@@ -4,6 +4,7 @@
 
 #include "render/image.h"
 
+enum { SB_OVERLAY_SLOT = 62 };        /* px from a legend to the one above it, in a picture that is 720 px high */
 enum { SB_OVERLAY_HEIGHT_MIN = 200 }; /* px: in lower pictures the text would cover the content, so it is omitted */
 
 /* The colours of the water. min < max: the values at both ends of the colour map. */
@@ -13,8 +14,11 @@ typedef struct sb_legend {
     double min, max;
 } sb_legend;
 
-/* title may be NULL; time in s. */
-sb_status sb_overlay_draw(sb_image *image, const char *title, double time, const sb_legend *legend, sb_error *error);
+/* Draws title and time. title may be NULL; time in s. */
+sb_status sb_overlay_title(sb_image *image, const char *title, double time, sb_error *error);
+
+/* Draws a legend above `slot` others. */
+sb_status sb_overlay_legend(sb_image *image, int slot, const sb_legend *legend, sb_error *error);
 
 /* Returns the smallest step of 1, 2 or 5 times a power of ten that divides `range` into at most `most` intervals. */
 double sb_overlay_tick(double range, int most);

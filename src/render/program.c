@@ -1,6 +1,11 @@
 /* Compiles shaders and wraps OpenGL calls. */
 #include "render/program.h"
 
+#include "base/hash.h"
+#include "render/context.h"
+
+#include <string.h>
+
 static const char version[] = "#version 330 core\n";
 
 const char sb_fullscreen_vertex[] = "out vec2 screen;\n"
@@ -25,8 +30,15 @@ static sb_status compile(const char *name, GLenum stage, const char *common, con
     return sb_fail(error, SB_FAILED, "shader %s: %s", name, text);
 }
 
-sb_status sb_program_create(const char *name, const char *vertex, const char *common, const char *fragment,
-                            GLuint *program, sb_error *error)
+static uint64_t hash_of(const char *vertex, const char *common, const char *fragment)
+{
+    uint64_t hash = sb_hash(1, vertex, strlen(vertex));
+    if (common) hash = sb_hash(hash, common, strlen(common));
+    return sb_hash(hash, fragment, strlen(fragment));
+}
+
+static sb_status compile_program(const char *name, const char *vertex, const char *common, const char *fragment,
+                                 GLuint *program, sb_error *error)
 {
     GLuint shaders[2] = {0};
     GLuint made = 0;
@@ -54,6 +66,25 @@ done:
     return status;
 }
 
+sb_status sb_program_create(const char *name, const char *vertex, const char *common, const char *fragment,
+                            GLuint *program, sb_error *error)
+{
+    sb_programs *known = sb_context_programs();
+    const uint64_t source = hash_of(vertex, common, fragment);
+    for (size_t k = 0; k < known->count; k++)
+        if (known->source[k] == source) {
+            *program = known->program[k];
+            return SB_OK;
+        }
+    if (known->count == SB_PROGRAMS_MAX)
+        return sb_fail(error, SB_FAILED, "shader %s: expected at most %d programs", name, SB_PROGRAMS_MAX);
+    const sb_status status = compile_program(name, vertex, common, fragment, program, error);
+    if (status != SB_OK) return status;
+    known->source[known->count] = source;
+    known->program[known->count++] = *program;
+    return SB_OK;
+}
+
 void sb_uniform_float(GLuint program, const char *name, double value)
 {
     sb_gl.Uniform1f(sb_gl.GetUniformLocation(program, name), (float)value);
@@ -67,6 +98,11 @@ void sb_uniform_vec2(GLuint program, const char *name, double x, double y)
 void sb_uniform_vec3(GLuint program, const char *name, const float *value)
 {
     sb_gl.Uniform3fv(sb_gl.GetUniformLocation(program, name), 1, value);
+}
+
+void sb_uniform_vec4(GLuint program, const char *name, double x, double y, double z, double w)
+{
+    sb_gl.Uniform4f(sb_gl.GetUniformLocation(program, name), (float)x, (float)y, (float)z, (float)w);
 }
 
 void sb_uniform_mat4(GLuint program, const char *name, const float *value)

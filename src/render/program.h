@@ -7,8 +7,9 @@
 
 #include <stddef.h>
 
-/* Compiles and links a program. `common` (may be NULL) is inserted before the fragment source. SB_FAILED contains the
-   beginning of the compiler's message. 0 is never a valid program. */
+/* Compiles and links a program, or returns the one that the current context has of these sources. It belongs to the
+   context: it must not be deleted. `common` (may be NULL) is inserted before the fragment source. SB_FAILED contains
+   the beginning of the compiler's message. 0 is never a valid program. */
 sb_status sb_program_create(const char *name, const char *vertex, const char *common, const char *fragment,
                             GLuint *program, sb_error *error);
 
@@ -16,6 +17,7 @@ sb_status sb_program_create(const char *name, const char *vertex, const char *co
 void sb_uniform_float(GLuint program, const char *name, double value);
 void sb_uniform_vec2(GLuint program, const char *name, double x, double y);
 void sb_uniform_vec3(GLuint program, const char *name, const float *value);
+void sb_uniform_vec4(GLuint program, const char *name, double x, double y, double z, double w);
 void sb_uniform_mat4(GLuint program, const char *name, const float *value);
 /* Binds a 2D texture to `unit` and assigns the unit to the sampler. */
 void sb_uniform_texture(GLuint program, const char *name, int unit, GLuint texture);

@@ -2,15 +2,16 @@
 #include "render/renderer.h"
 
 #include "base/memory.h"
+#include "render/captions.h"
 #include "render/compose.h"
 #include "render/context.h"
+#include "render/face_loads.h"
 #include "render/fields.h"
 #include "render/foam_texture.h"
-#include "render/marks.h"
-#include "render/overlay.h"
+#include "render/overhead.h"
 #include "render/soften.h"
 
-enum { SCENERIES = 4, TOPS_SIDE_MAX = 1024 };
+enum { SCENERIES = 4 };
 
 struct sb_renderer {
     const sb_scene *scene;
@@ -27,8 +28,9 @@ struct sb_renderer {
     sb_occlusion occlusion;
     sb_compose compose;
     sb_values values;
-    sb_tops shade, reached;
-    double reached_time;   /* s, of the frame that was added last */
+    sb_overhead overhead;
+    sb_face_loads loads;   /* empty unless the scene shows them */
+    sb_slicer slicer;      /* empty unless a camera has a slice */
     unsigned char *pixels; /* RGBA, rows from the bottom up as read from OpenGL */
 };
 
@@ -77,6 +79,18 @@ static double depth_of(const sb_renderer *r)
     return fmax(r->light.sea_level - lowest, r->scene->resolution);
 }
 
+static bool is_sliced(const sb_camera *camera)
+{
+    return sb_norm(camera->slice.normal) > 0;
+}
+
+static sb_status make_slicer(sb_renderer *r, const sb_model *model, sb_error *error)
+{
+    for (size_t c = 0; c < r->scene->render.camera_count; c++)
+        if (is_sliced(&r->scene->render.cameras[c])) return sb_slicer_create(model, &r->slicer, error);
+    return SB_OK;
+}
+
 /* The context must be current. */
 static sb_status make_passes(sb_renderer *r, const sb_model *model, sb_error *error)
 {
@@ -105,11 +119,13 @@ sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_re
     r->scene = scene;
     r->width = width;
     r->height = height;
-    r->reached_time = -HUGE_VAL;
     find_bounds(r, model);
     sb_status status = SB_OK;
     r->pixels = sb_alloc((size_t)width * (size_t)height, 4);
     if (!r->pixels) status = sb_fail_memory(error, "a picture");
+    if (status == SB_OK) status = make_slicer(r, model, error);
+    if (status == SB_OK && scene->render.loads)
+        status = sb_face_loads_create(model, scene->resolution, &r->loads, error);
     if (status == SB_OK) status = sb_context_create(&r->context, error);
     if (status == SB_OK) status = sb_context_enter(r->context, error);
     if (status == SB_OK) {
@@ -123,76 +139,11 @@ sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_re
     return status;
 }
 
-/* Cells of about a spacing over the lit box, so that no water falls between them. */
-static int tops_side(const sb_renderer *r, double spacing)
-{
-    const double side = r->light.size / (1.3 * spacing);
-    return side < 8 ? 8 : side > TOPS_SIDE_MAX ? TOPS_SIDE_MAX : (int)side;
-}
-
-/* Adds a frame to the highest water so far. A frame that is earlier than the last one begins anew. */
-static sb_status add_reached(sb_renderer *r, const sb_frame *frame, sb_error *error)
-{
-    if (frame->status.time == r->reached_time) return SB_OK;
-    if (r->reached.side == 0) {
-        const int side = tops_side(r, frame->spacing);
-        sb_status status = sb_tops_create(side, &r->reached, error);
-        if (status != SB_OK) return status;
-    }
-    if (frame->status.time < r->reached_time) sb_tops_clear(&r->reached);
-    r->reached_time = frame->status.time;
-    const sb_vec3 shift = sb_sub(frame->origin, r->light.origin);
-    const float *corner = r->light.ground_frame, scale = corner[2];
-    float map[3][4] = {{scale, 0, 0, ((float)shift.x - corner[0]) * scale},
-                       {0, scale, 0, ((float)shift.y - corner[1]) * scale},
-                       {0, 0, 1, (float)(shift.z + 0.5 * frame->spacing)}};
-    sb_tops_add(&r->reached, frame, r->water.density, 0.14f, map);
-    sb_tops_upload(&r->reached);
-    return SB_OK;
-}
-
-/* Finds the water as seen from the sun; heights are towards the sun. */
-static sb_status find_shade(sb_renderer *r, const sb_frame *frame, sb_error *error)
-{
-    if (r->shade.side == 0) {
-        const int side = r->light.shadows ? tops_side(r, frame->spacing) : 1;
-        sb_status status = sb_tops_create(side, &r->shade, error);
-        if (status != SB_OK) return status;
-    }
-    if (!r->light.shadows) return SB_OK;
-    const sb_vec3 shift = sb_sub(frame->origin, r->light.origin);
-    const float *m = r->light.to_shadow, by[3] = {(float)shift.x, (float)shift.y, (float)shift.z};
-    float map[3][4];
-    for (int row = 0; row < 3; row++) {
-        const float sign = row == 2 ? -1 : 1;
-        for (int a = 0; a < 4; a++) map[row][a] = sign * m[4 * a + row];
-        for (int a = 0; a < 3; a++) map[row][3] += map[row][a] * by[a];
-    }
-    sb_tops_clear(&r->shade);
-    sb_tops_add(&r->shade, frame, r->water.density, 0.35f, map);
-    sb_tops_upload(&r->shade);
-    return SB_OK;
-}
-
-/* How much the height towards the sun changes per metre, in units of the shadow map. */
-static double shadow_scale(const sb_light *light)
-{
-    const double x = (double)light->to_shadow[2], y = (double)light->to_shadow[6], z = (double)light->to_shadow[10];
-    return sqrt(x * x + y * y + z * z);
-}
-
-static sb_status draw_maps(sb_renderer *r, const sb_frame *frame, sb_error *error)
-{
-    const sb_render_settings *settings = &r->scene->render;
-    sb_status status = find_shade(r, frame, error);
-    if (status == SB_OK && (settings->wet_ground || settings->greatest_depth)) status = add_reached(r, frame, error);
-    return status;
-}
-
 static void draw_picture(sb_renderer *r, const sb_frame *frame, const sb_scenery *scenery, const sb_camera *camera,
                          const sb_view *view)
 {
     const sb_render_settings *settings = &r->scene->render;
+    const bool reaches = settings->wet_ground || settings->greatest_depth;
     /* A length for contact shadows and for colours of the ground that fits plants and flumes: 10 m at a plant. */
     const double unit = r->light.size / 175;
     if (settings->occlusion) sb_occlusion_draw(&r->occlusion, scenery, &r->water, view, 1.6 * unit);
@@ -201,9 +152,9 @@ static void draw_picture(sb_renderer *r, const sb_frame *frame, const sb_scenery
                             .light = &r->light,
                             .occlusion = settings->occlusion ? &r->occlusion : NULL,
                             .foam = r->foam.drawn ? r->foam.texture : 0,
-                            .shade = &r->shade,
-                            .shade_bias = 1.5 * frame->spacing * shadow_scale(&r->light),
-                            .reached = settings->wet_ground || settings->greatest_depth ? &r->reached : NULL,
+                            .shade = &r->overhead.shade,
+                            .shade_bias = 1.5 * frame->spacing * sb_overhead_scale(&r->light),
+                            .reached = reaches ? &r->overhead.reached : NULL,
                             .wet = settings->wet_ground,
                             .painted = settings->greatest_depth,
                             .depth_max = r->depth > 0 ? 0.5 * r->depth : 1,
@@ -216,6 +167,21 @@ static void draw_picture(sb_renderer *r, const sb_frame *frame, const sb_scenery
     sb_gl.ReadPixels(0, 0, r->width, r->height, GL_RGBA, GL_UNSIGNED_BYTE, r->pixels);
 }
 
+static double load_max(const sb_renderer *r)
+{
+    const double chosen = r->scene->render.load_max;
+    const double most = 0.1 * r->scene->fluid.density * r->scene->fluid.gravity * r->depth;
+    return chosen > 0 ? chosen : most > 0 ? most : 1;
+}
+
+/* Gives the bodies the colours of their loads; they are then drawn again. */
+static void tint(sb_renderer *r, const sb_frame *frame, sb_scenery *scenery)
+{
+    sb_face_loads_compute(&r->loads, frame, load_max(r));
+    sb_meshes_recolor(r->meshes, r->loads.colors[0], 3 * r->loads.triangle_count);
+    scenery->drawn = false;
+}
+
 static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, size_t number, const sb_view *view,
                              const double range[2], sb_error *error)
 {
@@ -223,13 +189,15 @@ static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, size_t numbe
     sb_scenery *scenery = &r->sceneries[number % SCENERIES];
     sb_status status = SB_OK;
     if (scenery->width == 0) status = sb_scenery_create(r->width, r->height, scenery, error);
+    if (status == SB_OK && r->scene->render.loads) tint(r, frame, scenery);
     if (status == SB_OK) status = sb_scenery_draw(scenery, r->meshes, &r->light, view, frame, error);
     if (status == SB_OK) status = sb_values_compute(&r->values, frame, camera->color, range[0], range[1], error);
     if (status == SB_OK)
         status = sb_water_draw(&r->water, frame, r->values.list, &r->light.solid, view, camera->style, error);
     if (status == SB_OK && r->scene->foam.enabled)
         status = sb_foam_texture_draw(&r->foam, frame, scenery, &r->water, view, error);
-    if (status == SB_OK) status = draw_maps(r, frame, error);
+    const bool reaches = r->scene->render.wet_ground || r->scene->render.greatest_depth;
+    if (status == SB_OK) status = sb_overhead_update(&r->overhead, &r->light, frame, r->water.density, reaches, error);
     if (status != SB_OK) return status;
     draw_picture(r, frame, scenery, camera, view);
     GLenum code = sb_gl.GetError();
@@ -238,26 +206,49 @@ static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, size_t numbe
     return SB_OK;
 }
 
-/* The values at the ends of the colour map. */
-static void find_range(const sb_renderer *r, const sb_camera *camera, double range[2])
+/* The values at the ends of a colour map; low and high: those of the scene, both 0 for a range that fits it. */
+static void find_range(const sb_renderer *r, sb_water_color color, double low, double high, double range[2])
 {
-    range[0] = camera->color_min;
-    range[1] = camera->color_max;
-    if (range[0] != 0 || range[1] != 0) return;
-    range[1] = sb_fields[camera->color].range(r->scene, r->depth, sqrt(r->scene->fluid.gravity * r->depth));
+    range[0] = low;
+    range[1] = high;
+    if (low != 0 || high != 0) return;
+    range[1] = sb_fields[color].range(r->scene, r->depth, sqrt(r->scene->fluid.gravity * r->depth));
     if (!(range[1] > 0) || !isfinite(range[1])) range[1] = 1;
 }
 
-static sb_status draw_marks(const sb_renderer *r, const sb_frame *frame, size_t camera, const sb_view *view,
-                            sb_vec3 target, const double range[2], sb_image *image, sb_error *error)
+static sb_shot shot_of(const sb_renderer *r, const sb_frame *frame, size_t number)
 {
-    const sb_render_settings *settings = &r->scene->render;
-    const sb_field *field = &sb_fields[settings->cameras[camera].color];
-    const sb_legend legend = {field->label, field->map, range[0], range[1]};
-    sb_status status = sb_overlay_draw(image, r->scene->title, frame->status.time, &legend, error);
-    if (status == SB_OK && settings->scale_bar) status = sb_marks_scale(image, view, target, error);
-    if (status == SB_OK) status = sb_marks_north(image, view, target, settings->north, error);
-    return status;
+    const sb_camera *camera = &r->scene->render.cameras[number];
+    const double margin = 2 * frame->spacing;
+    sb_shot shot = {.frame = frame, .camera = camera};
+    shot.key = sb_camera_at(camera, frame->status.time);
+    shot.min = sb_sub(r->min, sb_vec(margin, margin, margin));
+    shot.max = sb_add(r->max, sb_vec(margin, margin, margin));
+    shot.view = sb_view_create(&shot.key, (double)r->width / r->height, shot.min, shot.max);
+    shot.load_max = r->scene->render.loads ? load_max(r) : 0;
+    if (is_sliced(camera)) sb_slice_cut(&camera->slice, &shot.view);
+    find_range(r, camera->color, camera->color_min, camera->color_max, shot.range);
+    return shot;
+}
+
+/* Draws the slice of a camera over its picture, and the marks. */
+static sb_status finish_slice(sb_renderer *r, const sb_shot *shot, sb_image *image, sb_error *error)
+{
+    const sb_slice *slice = &shot->camera->slice;
+    sb_slice_job job = {.slice = slice,
+                        .frame = shot->frame,
+                        .view = &shot->view,
+                        .density = slice->behind ? r->water.density : NULL,
+                        .ground = &r->light.solid,
+                        .min = shot->min,
+                        .max = shot->max,
+                        .vector_speed = slice->vector_speed,
+                        .threads = sb_context_threads()};
+    if (!(job.vector_speed > 0)) job.vector_speed = 0.5 * sqrt(r->scene->fluid.gravity * r->depth);
+    if (!(job.vector_speed > 0)) job.vector_speed = 1;
+    find_range(r, slice->field, slice->field_min, slice->field_max, job.range);
+    sb_status status = sb_slicer_draw(&r->slicer, &job, image, error);
+    return status == SB_OK ? sb_captions_draw(r->scene, shot, &job, image, error) : status;
 }
 
 sb_status sb_renderer_draw(sb_renderer *renderer, const sb_frame *frame, size_t camera, sb_image *image,
@@ -269,19 +260,18 @@ sb_status sb_renderer_draw(sb_renderer *renderer, const sb_frame *frame, size_t 
         return sb_fail(error, SB_BAD_INPUT, "render: camera %zu of %zu, expected one with keys", camera,
                        settings->camera_count);
     if (!(frame->spacing > 0)) return sb_fail(error, SB_BAD_INPUT, "frame: spacing %g m, expected > 0", frame->spacing);
-    sb_camera_key key = sb_camera_at(&settings->cameras[camera], frame->status.time);
-    double margin = 2 * frame->spacing, range[2];
-    sb_view view = sb_view_create(&key, (double)r->width / r->height, sb_sub(r->min, sb_vec(margin, margin, margin)),
-                                  sb_add(r->max, sb_vec(margin, margin, margin)));
-    find_range(r, &settings->cameras[camera], range);
+    const sb_shot shot = shot_of(r, frame, camera);
+    const bool sliced = is_sliced(shot.camera);
     sb_status status = sb_image_resize(image, r->width, r->height, error);
-    if (status == SB_OK) status = sb_context_enter(r->context, error);
+    if (status == SB_OK && (!sliced || shot.camera->slice.behind)) {
+        status = sb_context_enter(r->context, error);
+        if (status != SB_OK) return status;
+        status = draw_passes(r, frame, camera, &shot.view, shot.range, error);
+        sb_context_leave(r->context);
+        if (status == SB_OK) sb_soften(r->pixels, image);
+    }
     if (status != SB_OK) return status;
-    status = draw_passes(r, frame, camera, &view, range, error);
-    sb_context_leave(r->context);
-    if (status != SB_OK) return status;
-    sb_soften(r->pixels, image);
-    return draw_marks(r, frame, camera, &view, key.target, range, image, error);
+    return sliced ? finish_slice(r, &shot, image, error) : sb_captions_draw(r->scene, &shot, NULL, image, error);
 }
 
 void sb_renderer_destroy(sb_renderer *renderer)
@@ -293,8 +283,7 @@ void sb_renderer_destroy(sb_renderer *renderer)
         sb_foam_texture_destroy(&r->foam);
         sb_occlusion_destroy(&r->occlusion);
         sb_compose_destroy(&r->compose);
-        sb_tops_destroy(&r->shade);
-        sb_tops_destroy(&r->reached);
+        sb_overhead_destroy(&r->overhead);
         for (int i = 0; i < SCENERIES; i++) sb_scenery_destroy(&r->sceneries[i]);
         sb_light_destroy(&r->light);
         sb_meshes_destroy(r->meshes);
@@ -305,6 +294,8 @@ void sb_renderer_destroy(sb_renderer *renderer)
     }
     sb_context_destroy(r->context);
     sb_values_free(&r->values);
+    sb_slicer_free(&r->slicer);
+    sb_face_loads_free(&r->loads);
     sb_free(r->pixels);
     sb_free(r);
 }

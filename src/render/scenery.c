@@ -41,7 +41,8 @@ static bool same_view(const sb_view *a, const sb_view *b)
 {
     return memcmp(&a->eye, &b->eye, sizeof a->eye) == 0 && memcmp(&a->right, &b->right, sizeof a->right) == 0 &&
            memcmp(&a->up, &b->up, sizeof a->up) == 0 && memcmp(&a->back, &b->back, sizeof a->back) == 0 &&
-           memcmp(a->projection, b->projection, sizeof a->projection) == 0;
+           memcmp(a->projection, b->projection, sizeof a->projection) == 0 && a->cuts == b->cuts &&
+           memcmp(&a->cut_normal, &b->cut_normal, sizeof a->cut_normal) == 0 && !(a->cut_at != b->cut_at);
 }
 
 static bool is_current(const sb_scenery *scenery, const sb_view *view, const sb_frame *frame)

@@ -26,7 +26,7 @@ static size_t choose(const sb_density *density, const sb_frame *frame, const sb_
     for (size_t i = block * BLOCK; i < end; i++) {
         const float *p = frame->position + 3 * i;
         const float to_eye[3] = {lens->eye[0] - p[0], lens->eye[1] - p[1], lens->eye[2] - p[2]};
-        if (!sb_density_counts(p) || sb_lens_outside(lens, to_eye)) continue;
+        if (!sb_density_counts(p) || sb_lens_outside(lens, to_eye) || sb_lens_cut(lens, p)) continue;
         const float step = cover / sqrtf(sb_dot3(to_eye, to_eye));
         if (sb_density_at(density, p[0] + step * to_eye[0], p[1] + step * to_eye[1], p[2] + step * to_eye[2]) > dense)
             continue;

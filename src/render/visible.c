@@ -35,7 +35,7 @@ static void collect(sb_visible *visible, const sb_frame *frame, const float *val
     for (size_t i = 0; i < frame->count; i++) {
         const float *p = frame->position + 3 * i;
         float to_eye[3] = {lens.eye[0] - p[0], lens.eye[1] - p[1], lens.eye[2] - p[2]};
-        if (!sb_density_counts(p) || sb_lens_outside(&lens, to_eye)) continue;
+        if (!sb_density_counts(p) || sb_lens_outside(&lens, to_eye) || sb_lens_cut(&lens, p)) continue;
         float step = cover_spacings * spacing / sqrtf(sb_dot3(to_eye, to_eye));
         if (sb_density_at(density, p[0] + step * to_eye[0], p[1] + step * to_eye[1], p[2] + step * to_eye[2]) > dense)
             continue;

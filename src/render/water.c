@@ -86,7 +86,6 @@ sb_status sb_water_create(int width, int height, sb_water *water, sb_error *erro
 
 void sb_water_destroy(sb_water *water)
 {
-    sb_gl.DeleteProgram(water->sphere_program);
     sb_gl.DeleteVertexArrays(1, &water->points);
     sb_gl.DeleteBuffers(1, &water->buffer);
     sb_gl.DeleteTextures(1, &water->surface);

@@ -439,8 +439,20 @@ typedef enum sb_water_color {
     SB_COLOR_VORTICITY,
     SB_COLOR_DEPTH,
     SB_COLOR_MOMENTUM_FLUX,
+    SB_COLOR_DENSITY_ERROR,
     SB_WATER_COLORS
 } sb_water_color;
+
+/* A plane through the water. What lies between it and the eye is not drawn. */
+typedef struct sb_slice {
+    sb_vec3 point, normal;       /* m; of any length, its sign has no meaning; a normal of 0: there is no slice */
+    bool behind;                 /* what lies behind the plane is drawn */
+    sb_water_color field;        /* colours the cut water */
+    double field_min, field_max; /* as color_min and color_max of the camera */
+    double vectors;              /* m between arrows; 0: none */
+    double vector_speed;         /* m/s, whose arrow has this length; 0: sqrt(g D) / 2 */
+    double streamlines;          /* m between streamlines; 0: none */
+} sb_slice;
 
 typedef struct sb_camera {
     char name[SB_NAME_MAX];
@@ -456,6 +468,7 @@ typedef struct sb_camera {
     sb_water_style style;
     sb_water_color color;
     double color_min, color_max; /* in the unit of the colour's field; both 0: a range that fits the scene */
+    sb_slice slice;
 } sb_camera;
 
 /* A picture of a size of its own at one time. */
@@ -485,6 +498,8 @@ typedef struct sb_render_settings {
     bool shadows, occlusion;
     bool wet_ground;     /* ground that the water has reached is darker */
     bool greatest_depth; /* the greatest depth so far is painted on the terrain */
+    bool loads;          /* bodies have the colour of the mean pressure on their faces */
+    double load_max;     /* Pa, at the upper end of these colours; 0: rho g D / 10 */
     bool video;          /* join pictures to <camera>.mp4 if ffmpeg is installed */
     size_t camera_count;
     sb_camera *cameras;
@@ -544,6 +559,18 @@ typedef struct sb_scene {
     sb_control_settings control;
     sb_output_settings output;
 } sb_scene;
+
+/* Whether a camera shows the density error, which frames contain only then. */
+static inline bool sb_scene_shows_density_error(const sb_scene *scene)
+{
+    for (size_t c = 0; c < scene->render.camera_count; c++) {
+        const sb_camera *camera = &scene->render.cameras[c];
+        const bool sliced = camera->slice.normal.x != 0 || camera->slice.normal.y != 0 || camera->slice.normal.z != 0;
+        if (camera->color == SB_COLOR_DENSITY_ERROR || (sliced && camera->slice.field == SB_COLOR_DENSITY_ERROR))
+            return true;
+    }
+    return false;
+}
 
 /* Whether a run of the scene draws pictures. */
 static inline bool sb_scene_draws(const sb_scene *scene)

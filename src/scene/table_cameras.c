@@ -79,9 +79,9 @@ static sb_status finish_orbit(sb_reader *reader, const sb_yaml *map, void *item)
 static const sb_table orbit_table = {SB_KEY_ROWS(orbit_keys), .size = sizeof(sb_orbit), .variant = orbit_variant,
                                      .finish = finish_orbit};
 
-enum { FIXED = 1, PATH = 2, FOLLOW = 4, ORBIT = 8, CLOSEUP = 16 };
+enum { FIXED = 1, PATH = 2, FOLLOW = 4, ORBIT = 8, CLOSEUP = 16, SLICED = 32 };
 
-static unsigned camera_variant(const void *item, const sb_yaml *map)
+static unsigned kind_variant(const void *item, const sb_yaml *map)
 {
     const sb_camera *camera = item;
     static const unsigned kinds[] = {
@@ -94,8 +94,62 @@ static unsigned camera_variant(const void *item, const sb_yaml *map)
     return sb_yaml_child(map, "follow") ? FOLLOW : FIXED;
 }
 
+static unsigned camera_variant(const void *item, const sb_yaml *map)
+{
+    const sb_camera *camera = item;
+    const bool sliced = map ? sb_yaml_child(map, "slice") != NULL : sb_norm(camera->slice.normal) > 0;
+    return kind_variant(item, map) | (sliced ? SLICED : 0);
+}
+
 static const char *const style_words[] = {"surface", "particles", NULL};
-static const char *const color_words[] = {"speed", "pressure", "vorticity", "depth", "momentum_flux", NULL};
+static const char *const color_words[] = {"speed",         "pressure",      "vorticity", "depth",
+                                          "momentum_flux", "density_error", NULL};
+
+/* clang-format off */
+static const sb_key slice_keys[] = {
+    {.name = "point", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_slice, point), .unit = "m", SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED | SB_KEY_FULL, .doc = "A point of the plane."},
+    {.name = "normal", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_slice, normal), SB_KEY_ANY,
+     .flags = SB_KEY_REQUIRED | SB_KEY_FULL,
+     .doc = "Direction across the plane, of any length but 0; [0, 0, 1] is a horizontal plane."},
+    {.name = "behind", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_slice, behind), .fallback = "true",
+     .doc = "Whether what lies behind the plane is drawn, or only the plane."},
+    {.name = "field", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_slice, field), .words = color_words,
+     .derived = "the camera's `color`", .doc = "Field that colours the cut water; one that is not `color` has a legend of its own."},
+    {.name = "field_min", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_slice, field_min), SB_KEY_ANY,
+     .derived = "`color_min`, or 0 with another field", .doc = "Value at the lower end of its colour map, in the field's unit."},
+    {.name = "field_max", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_slice, field_max), SB_KEY_ANY,
+     .derived = "`color_max`, or 0 with another field",
+     .doc = "Value at the upper end, above field_min; 0 with field_min 0: chosen for the scene."},
+    {.name = "vectors", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_slice, vectors), .unit = "m", SB_KEY_NOT_NEGATIVE,
+     .fallback = "0", .doc = "Distance between arrows that show the velocity within the plane; 0: no arrows."},
+    {.name = "vector_speed", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_slice, vector_speed), .unit = "m/s",
+     SB_KEY_NOT_NEGATIVE, .fallback = "0", .doc = "Speed whose arrow is as long as the arrows are apart; 0: sqrt(g D) / 2."},
+    {.name = "streamlines", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_slice, streamlines), .unit = "m",
+     SB_KEY_NOT_NEGATIVE, .fallback = "0",
+     .doc = "Distance between lines along the velocity within the plane; 0: no lines."},
+};
+/* clang-format on */
+
+/* Refuses a distance that would need more than a million arrows or lines. */
+static sb_status check_distance(sb_reader *reader, const sb_yaml *map, const char *key, double distance)
+{
+    const double least = 1e-3 * sb_norm(sb_sub(reader->scene->domain.max, reader->scene->domain.min));
+    if (distance == 0 || distance >= least) return SB_OK;
+    return sb_reader_fail(reader, map, key, "%g, expected 0 or at least %.3g m, 1/1000 of the domain's diagonal",
+                          distance, least);
+}
+
+static sb_status finish_slice(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    const sb_slice *slice = item;
+    if (!(sb_norm(slice->normal) > 0))
+        return sb_reader_fail(reader, map, "normal", "has length 0, expected a direction");
+    sb_status status = check_distance(reader, map, "vectors", slice->vectors);
+    return status == SB_OK ? check_distance(reader, map, "streamlines", slice->streamlines) : status;
+}
+
+static const sb_table slice_table = {SB_KEY_ROWS(slice_keys), .size = sizeof(sb_slice), .finish = finish_slice};
 
 /* clang-format off */
 static const sb_key camera_keys[] = {
@@ -144,6 +198,9 @@ static const sb_key camera_keys[] = {
      .doc = "Value at the lower end of the colour map, in the field's unit."},
     {.name = "color_max", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_camera, color_max), SB_KEY_ANY, .fallback = "0",
      .doc = "Value at the upper end, above color_min; 0 with color_min 0: chosen for the scene."},
+    {.name = "slice", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_camera, slice), .table = &slice_table, .applies = SLICED,
+     .derived = "no plane", .only = "a camera with a slice",
+     .doc = "Plane through the water that shows a field on it. What lies between it and the eye is not drawn; see [pictures](pictures.md#slices)."},
 };
 /* clang-format on */
 
@@ -179,6 +236,21 @@ static sb_status finish_follow(sb_reader *reader, const sb_yaml *map, sb_follow 
     return sb_reader_fail(reader, map, "to", "is within a spacing of `from`, expected the other end of a line");
 }
 
+/* The field on the plane is that of the water unless the scene gives another one. */
+static sb_status finish_field(sb_reader *reader, const sb_yaml *map, sb_camera *camera)
+{
+    sb_slice *slice = &camera->slice;
+    const sb_yaml *given = sb_yaml_child(map, "slice");
+    if (!given) return SB_OK;
+    if (!sb_yaml_child(given, "field")) slice->field = camera->color;
+    if (slice->field == camera->color && !sb_yaml_child(given, "field_min")) slice->field_min = camera->color_min;
+    if (slice->field == camera->color && !sb_yaml_child(given, "field_max")) slice->field_max = camera->color_max;
+    const bool chosen = slice->field_min == 0 && slice->field_max == 0;
+    if (chosen || slice->field_max > slice->field_min) return SB_OK;
+    return sb_reader_fail(reader, map, "slice", "field_max is %g, expected more than field_min, %g", slice->field_max,
+                          slice->field_min);
+}
+
 static sb_status finish_camera(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_camera *camera = item;
@@ -186,7 +258,9 @@ static sb_status finish_camera(sb_reader *reader, const sb_yaml *map, void *item
     if (!chosen && !(camera->color_max > camera->color_min))
         return sb_reader_fail(reader, map, "color_max", "is %g, expected more than color_min, %g", camera->color_max,
                               camera->color_min);
-    const unsigned variant = camera_variant(camera, map);
+    sb_status status = finish_field(reader, map, camera);
+    if (status != SB_OK) return status;
+    const unsigned variant = kind_variant(camera, map);
     camera->kind = variant == FOLLOW    ? SB_CAMERA_FOLLOW
                    : variant == ORBIT   ? SB_CAMERA_ORBIT
                    : variant == CLOSEUP ? SB_CAMERA_CLOSEUP
@@ -198,7 +272,7 @@ static sb_status finish_camera(sb_reader *reader, const sb_yaml *map, void *item
         return sb_reader_fail(reader, map, "direction", "has length 0, expected a direction");
     if (camera->key_count == 0) return SB_OK;
     camera->keys->fov = camera->fov;
-    const sb_status status = finish_view(reader, map, camera->keys);
+    status = finish_view(reader, map, camera->keys);
     return status == SB_OK && variant == FOLLOW ? finish_follow(reader, map, &camera->follow) : status;
 }
 

@@ -98,6 +98,10 @@ static const sb_key render_keys[] = {
      .doc = "Whether ground and walls that the water has reached are darker."},
     {.name = "greatest_depth", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, greatest_depth),
      .fallback = "false", .doc = "Whether the greatest depth so far is painted on terrain above the still water."},
+    {.name = "loads", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, loads), .fallback = "false",
+     .doc = "Whether the faces of bodies have the colour of the mean pressure on them; see [pictures](pictures.md#loads)."},
+    {.name = "load_max", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_render_settings, load_max), .unit = "Pa",
+     SB_KEY_NOT_NEGATIVE, .fallback = "0", .doc = "Mean pressure at the upper end of these colours; 0: rho g D / 10."},
     {.name = "scale_bar", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, scale_bar), .fallback = "true",
      .doc = "Whether a bar shows the length of an object at the camera's target."},
     {.name = "north", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_render_settings, north), SB_KEY_ANY,
@@ -116,6 +120,10 @@ static sb_status finish_render(sb_reader *reader, const sb_yaml *map, void *item
     if (draws && render->camera_count == 0)
         return sb_reader_fail(reader, map, "cameras", "has no camera, expected at least one because render.%s",
                               render->interval > 0 ? "interval is not 0" : "stills is not empty");
+    if (render->loads && reader->scene->dimensions == 2)
+        return sb_reader_fail(reader, map, "loads",
+                              "true in a scene of two dimensions, expected false: its bodies have no "
+                              "faces");
     if (render->inset_count > INSETS_MAX)
         return sb_reader_fail(reader, map, "insets", "has %zu plots, expected at most %d", render->inset_count,
                               INSETS_MAX);

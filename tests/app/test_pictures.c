@@ -202,12 +202,42 @@ static void render_draws_the_same_pictures(void **state)
     outcome_free(&o);
 }
 
+/* A still whose time a particle file has is that of the run. Others show the nearest time, with a warning. */
+static void render_draws_stills(void **state)
+{
+    (void)state;
+    png_image image;
+    outcome o = RUN(0, "render", "r", "--out", "later");
+    assert_contains(o.err, "render.stills: 0.03 s: no particle file has this time; the still shows the water at 0 s\n");
+    assert_contains(o.err,
+                    "render.stills: 0.25 s: no particle file has this time; the still shows the water at 0.28 s\n");
+    assert_null(strstr(o.err, "0.21 s"));
+    assert_contains(o.out, "3 of 3 stills\n");
+    outcome_free(&o);
+    assert_same_file("r/stills/round/000002.png", "later/stills/round/000002.png");
+    assert_same_file("r/stills/post/000002.png", "later/stills/post/000002.png");
+    assert_same_file("r/frames/round/000004.png", "later/frames/round/000004.png");
+    /* Stills alone, of one camera and another size. */
+    o = RUN(0, "render", "r", "--out", "only", "--camera", "post", "--set", "render.interval=0", "--set",
+            "render.stills=[0.14, 5]", "--set", "render.still_width=64", "--set", "render.still_height=48");
+    assert_one_line(o.err, "render.stills: 5 s: no particle file is near this time, there is no still of it");
+    outcome_free(&o);
+    sb_free(read_png(in_folder("only/stills/post/000001.png"), &image));
+    assert_true(image.width == 64 && image.height == 48);
+    assert_false(exists("only/stills/post/000002.png") || exists("only/stills/round") || exists("only/frames"));
+    /* Files of other origin are not overwritten. */
+    write_text("only/stills/post/000001.png", "mine");
+    o = RUN(1, "render", "r", "--out", "only", "--set", "render.interval=0");
+    assert_one_line(o.err, "was not written by shorebreak");
+    outcome_free(&o);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pictures_have_their_exact_times), cmocka_unit_test(a_step_can_have_several_pictures),
         cmocka_unit_test(stills_have_their_own_size),      cmocka_unit_test(a_resumed_run_has_the_same_pictures),
-        cmocka_unit_test(render_draws_the_same_pictures),
+        cmocka_unit_test(render_draws_the_same_pictures),  cmocka_unit_test(render_draws_stills),
     };
     return cmocka_run_group_tests(tests, setup, program_teardown);
 }

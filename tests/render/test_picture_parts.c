@@ -193,7 +193,8 @@ static void ticks_are_round_numbers(void **state)
     static const double speeds[] = {5e-324, 1e-300, 1e300, 1.7976931348623157e308};
     for (size_t i = 0; i < sizeof speeds / sizeof *speeds; i++) {
         const sb_legend legend = {"speed  m/s", SB_COLORMAP_SEA, 0, speeds[i]};
-        assert_int_equal(sb_overlay_draw(&image, "title", 1, &legend, &error), SB_OK);
+        assert_int_equal(sb_overlay_title(&image, "title", 1, &error), SB_OK);
+        assert_int_equal(sb_overlay_legend(&image, 0, &legend, &error), SB_OK);
     }
     sb_image_free(&image);
 }

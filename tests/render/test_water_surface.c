@@ -184,6 +184,13 @@ static void fields_have_their_values(void **state)
         if (inside(frame, i)) assert_true(fabsf(values.list[i] - 0.6f) < 0.06f);
     compute(&values, frame, SB_COLOR_PRESSURE, 39240);
     for (size_t i = 0; i < frame->count; i++) assert_true(fabsf(values.list[i] - frame->pressure[i] / 39240) < 1e-5f);
+    sb_error error = {0};
+    assert_int_equal(sb_values_compute(&values, frame, SB_COLOR_DENSITY_ERROR, 0, 1, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "density_error"));
+    assert_true(sb_frame_add_density_error(frame));
+    for (size_t i = 0; i < frame->count; i++) frame->density_error[i] = 1e-5f * (float)(i % 1000);
+    compute(&values, frame, SB_COLOR_DENSITY_ERROR, 1); /* % */
+    for (size_t i = 0; i < frame->count; i++) assert_true(fabsf(values.list[i] - 1e-3f * (float)(i % 1000)) < 1e-5f);
     compute(&values, frame, SB_COLOR_SPEED, 10);
     for (size_t i = 0; i < frame->count; i++) {
         const double v = hypot((double)frame->velocity[3 * i], (double)frame->velocity[3 * i + 1]);
@@ -213,6 +220,8 @@ static void strange_particles_are_left_out(void **state)
     frame->position[0] = NAN;
     frame->position[4] = INFINITY;
     frame->position[8] = -9e9f;
+    assert_true(sb_frame_add_density_error(frame));
+    memset(frame->density_error, 0, frame->count * sizeof(float));
     for (int color = 0; color < SB_WATER_COLORS; color++) compute(&values, frame, (sb_water_color)color, 1);
     draw(frame, sb_vec(2, -8, 6), sb_vec(2, 2, 2), 2, &surfels, &splat);
     for (size_t i = 0; i < 4 * WIDTH * HEIGHT; i++) assert_true(isfinite(splat.surface[i]) && isfinite(splat.cover[i]));

@@ -18,13 +18,20 @@ static particle particle_at(const sb_sim *sim, size_t i)
     return (particle){sim->state.position[i], sim->state.velocity[i], pressure, sim->work.density[i], sim->state.id[i]};
 }
 
+/* Density sums do not exist before the first step. */
+static float density_error(const sb_sim *sim, float density)
+{
+    return sim->work.lists_current ? density / sim->constant.rest_density - 1 : 0;
+}
+
 sb_frame *sb_sim_snapshot(const sb_sim *sim)
 {
     const sb_model *model = sim->model;
     const size_t count = sim->state.n;
     sb_frame *frame = sb_frame_create(count, model->body_count);
     if (!frame) return NULL;
-    if (sb_foam_fill(sim, frame) != 0) {
+    if (sb_foam_fill(sim, frame) != 0 ||
+        (sb_scene_shows_density_error(sim->scene) && !sb_frame_add_density_error(frame))) {
         sb_frame_release(frame);
         return NULL;
     }
@@ -42,6 +49,7 @@ sb_frame *sb_sim_snapshot(const sb_sim *sim)
         for (size_t axis = 0; axis < 3; axis++) frame->velocity[3 * i + axis] = p.velocity[axis];
         frame->pressure[i] = p.pressure;
         frame->id[i] = p.id;
+        if (frame->density_error) frame->density_error[i] = density_error(sim, p.density);
     }
     for (size_t b = 0; b < model->body_count; b++) {
         sb_frame_body *body = &frame->bodies[b];

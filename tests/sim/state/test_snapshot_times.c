@@ -78,8 +78,43 @@ static void a_carried_snapshot_is_that_of_the_step_before(void **state)
     tank_free(&t);
 }
 
+/* Frames have the density error of each particle if a camera shows it, and no memory for it otherwise. */
+static void the_density_error_is_there_if_it_is_shown(void **state)
+{
+    (void)state;
+    tank t;
+    sb_camera camera = {.name = "c"};
+    tank_of_particles(&t, 2, 0.05, sb_vec(2, 0, 1), 0.8, 0.6, 0);
+    t.scene.render.cameras = &camera;
+    t.scene.render.camera_count = 1;
+    sb_sim *sim = tank_sim(&t);
+    assert_non_null(sim);
+    assert_int_equal(tank_steps(sim, 20), 0);
+    sb_frame *without = snapshot(sim);
+    assert_null(without->density_error);
+    camera.slice = (sb_slice){.normal = {0, 1, 0}, .field = SB_COLOR_DENSITY_ERROR};
+    sb_frame *with = snapshot(sim);
+    assert_non_null(with->density_error);
+    const double rest = t.scene.fluid.density;
+    double most = 0;
+    for (size_t i = 0; i < with->count; i++) {
+        const double error = sb_sim_particle(sim, i).density / rest - 1;
+        assert_true(fabs((double)with->density_error[i] - error) < 1e-6);
+        most = fmax(most, error);
+    }
+    assert_true(most > 1e-6); /* water under pressure is denser than at rest */
+    camera = (sb_camera){.name = "c"};
+    t.scene.render.cameras = NULL;
+    t.scene.render.camera_count = 0;
+    sb_frame_release(without);
+    sb_frame_release(with);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_carried_snapshot_is_that_of_the_step_before)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_carried_snapshot_is_that_of_the_step_before),
+                                       cmocka_unit_test(the_density_error_is_there_if_it_is_shown)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
