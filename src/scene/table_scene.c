@@ -185,6 +185,10 @@ static sb_status check_sea(sb_reader *reader, const sb_yaml *map, const sb_scene
             return sb_reader_fail(reader, map, "sea", "sides.%s: still, but domain.sides.%s is not sea, expected sea",
                                   sb_side_names[side], sb_side_names[side]);
     }
+    if (any && scene->numerics.solver == SB_SOLVER_WCSPH)
+        return sb_reader_fail(reader, map, "domain",
+                              "sides: a side of kind sea with numerics.solver wcsph, expected wall, open or periodic, "
+                              "or another solver");
     if (any && sb_scene_grid_alone(scene))
         return sb_reader_fail(reader, map, "domain",
                               "sides: a side of kind sea needs particles, and a scene with offshore has none, expected "

@@ -13,6 +13,9 @@ typedef struct sb_needs {
     bool sponge;                /* zones slow water down */
     bool settling;
     bool start_velocity;     /* water in motion at t = 0, after settling */
+    bool implicit;           /* steps have a pressure solve */
+    bool wcsph;              /* steps are explicit, in two halves (sim/wcsph/wcsph.h) */
+    bool dynamic_walls;      /* boundary particles have a density of their own */
     bool direction, product; /* fields of the pressure solver */
 } sb_needs;
 

@@ -13,6 +13,7 @@ typedef struct sb_constants {
     float wave_speed;         /* m/s, sqrt(g D) */
     float slowest;            /* 1/s, circular frequency of the water's slowest oscillation */
     float sound_speed;        /* m/s */
+    float stiffness;          /* Pa, B of the equation of state of wcsph (physics/tait.h) */
     float viscosity;          /* m^2/s, physical */
     float full_diagonal;      /* |a_ii|/dt^2 of a full lattice: the scale of a_ii */
     float bulk_deficit;       /* kg/m^3, deficit of a full lattice's density sum */
