@@ -1,3 +1,4 @@
+/* Rates and pressures of dynamic boundary particles: a loop over the water around each of them. */
 #include "sim/wcsph/boundary.h"
 
 #include "base/hash.h"
@@ -72,14 +73,43 @@ static void add_hits(boundary_sums *s, const sums_of *of)
     s->hits = 0;
 }
 
-/* Adds the water of one cell. base: index of the first particle that the cells are of. */
-static void add_cell(const sb_sim *sim, const sums_of *of, const sb_cells *cells, uint64_t code, size_t base,
-                     sb_record at, sb_f4 velocity, boundary_sums *s)
+/* Consecutive particles, ghosts included. */
+typedef struct range {
+    size_t begin, end;
+} range;
+
+/* The water around one cell. */
+typedef struct surroundings {
+    range range[54];
+    size_t count;
+} surroundings;
+
+static void add_range(const sb_cells *cells, uint64_t code, size_t base, surroundings *around)
 {
     const int64_t cell = sb_cells_find(cells, code);
-    if (cell < 0) return;
+    if (cell >= 0) around->range[around->count++] = (range){base + cells->begin[cell], base + cells->begin[cell + 1]};
+}
+
+/* Finds the water in a cell and around it. */
+static surroundings around_cell(const sb_sim *sim, uint64_t code)
+{
+    const int layers = sim->constant.dimension == 2 ? 0 : 1;
+    surroundings around = {.count = 0};
+    for (int dz = -1; dz <= 1; dz++)
+        for (int dy = -layers; dy <= layers; dy++)
+            for (int dx = -1; dx <= 1; dx++) {
+                const uint64_t there = code + sb_cell_step(dx, dy, dz);
+                add_range(&sim->cells, there, 0, &around);
+                if (sim->ghosts.count > 0) add_range(&sim->ghosts.cells, there, sim->state.n, &around);
+            }
+    return around;
+}
+
+/* Adds the water of a range to the sums of a boundary particle at `at`. */
+static void add_water(const sb_sim *sim, const sums_of *of, range water, sb_record at, sb_f4 velocity, boundary_sums *s)
+{
     const float relative = 1 / sim->constant.rest_density;
-    for (size_t j = base + cells->begin[cell]; j < base + cells->begin[cell + 1]; j++) {
+    for (size_t j = water.begin; j < water.end; j++) {
         const sb_f4 d = sb_offset(at, sim->state.position[j]);
         const float q2 = sb_sum3(d * d) * of->to_q2;
         if (!(q2 < 1)) continue;
@@ -99,25 +129,17 @@ static float excess_at(const sb_sim *sim, float pressure)
 }
 
 /* Rate and load of particle k of a set. One that water reaches starts with the density of the water's pressure. */
-static void find_state(sb_sim *sim, const sums_of *of, uint32_t set_index, size_t k)
+static void find_state(sb_sim *sim, const sums_of *of, const surroundings *around, uint32_t set_index, size_t k)
 {
     const sb_wall_set *set = &sim->walls.set[set_index];
     sb_boundary *b = &sim->walls.boundary;
     const uint32_t number = sb_boundary_number(set, k);
     const sb_record at = set->record[k];
-    const uint64_t code = sb_cell_code(at, sim->space.shift);
-    const int layers = sim->constant.dimension == 2 ? 0 : 1;
     const sb_f4 velocity = sb_wall_velocity(sim, sb_wall_entry(set_index, (uint32_t)k));
     boundary_sums s;
     s.weight = s.pressure = s.rate = 0;
     s.hits = 0;
-    for (int dz = -1; dz <= 1; dz++)
-        for (int dy = -layers; dy <= layers; dy++)
-            for (int dx = -1; dx <= 1; dx++) {
-                const uint64_t there = code + sb_cell_step(dx, dy, dz);
-                add_cell(sim, of, &sim->cells, there, 0, at, velocity, &s);
-                if (sim->ghosts.count > 0) add_cell(sim, of, &sim->ghosts.cells, there, sim->state.n, at, velocity, &s);
-            }
+    for (size_t r = 0; r < around->count; r++) add_water(sim, of, around->range[r], at, velocity, &s);
     add_hits(&s, of);
     b->rate[number] = b->load[number] = 0;
     if (!(s.weight > 0)) {
@@ -139,10 +161,14 @@ sb_status sb_stage_boundary(sb_sim *sim, sb_error *error)
     (void)error;
     const sums_of of = constants_of(sim);
     for (uint32_t s = 0; s < SB_WALL_SETS; s++) {
-        const size_t count = sim->walls.set[s].count;
-#pragma omp parallel for schedule(dynamic, 256)
-        for (size_t k = 0; k < count; k++)
-            if (!(sim->walls.set[s].number[k] & SB_BOUNDARY_IMAGE)) find_state(sim, &of, s, k);
+        const sb_wall_set *set = &sim->walls.set[s];
+        const size_t cells = set->count > 0 ? set->cells.count : 0;
+#pragma omp parallel for schedule(dynamic, 16)
+        for (size_t c = 0; c < cells; c++) {
+            const surroundings around = around_cell(sim, set->cells.code[c]);
+            for (size_t k = set->cells.begin[c]; k < set->cells.begin[c + 1]; k++)
+                if (!(set->number[k] & SB_BOUNDARY_IMAGE)) find_state(sim, &of, &around, s, k);
+        }
     }
     return SB_OK;
 }
