@@ -37,6 +37,7 @@ static void list_presets(void)
 {
     row("default", "the most accurate values found over several cases", "docs/method.md");
     row("paper", "as published, with errata corrected", "Sampath et al. 2016");
+    row("wen", "explicit steps of weakly compressible water, for comparison", "Wen, Ren, Dong, Wang");
 }
 
 static const struct {

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-enum { SB_STAGES_MAX = 22 };
+enum { SB_STAGES_MAX = 32 };
 
 /* Seconds and calls of each stage in this process, settling included, for the stage table. */
 typedef struct sb_stage_time {

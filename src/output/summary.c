@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "output/trust.h"
+#include "scene/presets.h"
 
 static double ratio(double a, double b)
 {
@@ -189,7 +190,7 @@ static void put_head(sb_json *json, const sb_scene *scene, const char *status)
 {
     sb_json_open(json, NULL, '{');
     sb_json_text(json, "version", SB_VERSION);
-    sb_json_text(json, "preset", scene->numerics.preset == SB_PRESET_PAPER ? "paper" : "default");
+    sb_json_text(json, "preset", sb_preset_names[scene->numerics.preset]);
     sb_json_text(json, "title", scene->title);
     sb_json_text(json, "status", status);
 }

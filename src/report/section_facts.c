@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "frame/records.h"
 #include "report/html.h"
+#include "scene/presets.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -245,9 +246,12 @@ void sb_section_facts(FILE *out, const sb_report_page *page)
     put_number(out, "Steps", sb_report_number(run, "steps"), "");
     if (run->has_scene) {
         begin(out, "Method");
-        sb_html_put(out, "incompressible SPH, kernel %s, walls by %s, preset %s", run->scene.numerics.kernel->name,
-                    run->scene.numerics.walls == SB_WALLS_IMAGES ? "images" : "particles",
-                    run->scene.numerics.preset == SB_PRESET_PAPER ? "paper" : "default");
+        const sb_numerics *n = &run->scene.numerics;
+        static const char *const forms[] = {
+            [SB_WALLS_PARTICLES] = "particles", [SB_WALLS_IMAGES] = "images", [SB_WALLS_DYNAMIC] = "dynamic particles"};
+        sb_html_put(out, "%s SPH, kernel %s, walls by %s, preset %s",
+                    n->solver == SB_SOLVER_WCSPH ? "weakly compressible" : "incompressible", n->kernel->name,
+                    forms[n->walls], sb_preset_names[n->preset]);
         finish(out);
     }
     put_number(out, "Run time", isnan(wall) ? (double)NAN : wall / 60, "min");

@@ -1,4 +1,5 @@
 #include "scene/key.h"
+#include "scene/presets.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -8,19 +9,30 @@ typedef struct walk {
     void *context;
 } walk;
 
+/* The default preset's value, and those of the presets with other values. */
+static void format_presets(const sb_key *key, const char *usual, char *out, size_t size)
+{
+    const char *before = " (";
+    int used = snprintf(out, size, "%s", usual);
+    for (int p = SB_PRESET_DEFAULT + 1; sb_preset_names[p] && used > 0 && (size_t)used < size; p++) {
+        const char *other = sb_key_default(key, (sb_preset)p);
+        if (strcmp(usual, other) == 0) continue;
+        used += snprintf(out + used, size - (size_t)used, "%s%s: %s", before, sb_preset_names[p], other);
+        before = ", ";
+    }
+    if (*before == ',') snprintf(out + used, size - (size_t)used, ")");
+}
+
 /* Formats the default as docs/scene.md shows it. */
 static void format_default(const sb_key *key, char *out, size_t size)
 {
     const char *usual = sb_key_default(key, SB_PRESET_DEFAULT);
-    const char *paper = sb_key_default(key, SB_PRESET_PAPER);
     if (key->flags & SB_KEY_REQUIRED_3D)
         snprintf(out, size, "required in 3D; 2D: %s", key->derived ? key->derived : usual);
     else if (key->derived)
         snprintf(out, size, "%s", key->derived);
-    else if (usual && strcmp(usual, paper) != 0)
-        snprintf(out, size, "%s (paper: %s)", usual, paper);
     else if (usual)
-        snprintf(out, size, "%s", usual);
+        format_presets(key, usual, out, size);
     else if (key->type == SB_KEY_LIST)
         snprintf(out, size, "none");
     else

@@ -121,8 +121,13 @@ typedef struct sb_given_sea {
     char plane[SB_NAME_MAX]; /* of the record */
 } sb_given_sea;
 
-typedef enum sb_preset { SB_PRESET_DEFAULT, SB_PRESET_PAPER } sb_preset;
-typedef enum sb_solver { SB_SOLVER_JACOBI, SB_SOLVER_CHEBYSHEV, SB_SOLVER_CG } sb_solver;
+typedef enum sb_preset { SB_PRESET_DEFAULT, SB_PRESET_PAPER, SB_PRESET_WEN } sb_preset;
+typedef enum sb_solver {
+    SB_SOLVER_JACOBI,
+    SB_SOLVER_CHEBYSHEV,
+    SB_SOLVER_CG,
+    SB_SOLVER_WCSPH /* no solve: explicit steps of weakly compressible water [W] */
+} sb_solver;
 typedef enum sb_time_step_rule {
     SB_TIME_STEP_PAPER, /* dt_max = factor h / g      [S16 eq. 12] */
     SB_TIME_STEP_DEPTH  /* dt_max = factor h / sqrt(g D) */
@@ -139,7 +144,8 @@ typedef enum sb_density_form {
 
 typedef enum sb_wall_form {
     SB_WALLS_PARTICLES, /* boundary particles act on the pressure [A12] */
-    SB_WALLS_IMAGES     /* images of the water, reflected at the walls' facets (sim/walls/mirrors.h) */
+    SB_WALLS_IMAGES,    /* images of the water, reflected at the walls' facets (sim/walls/mirrors.h) */
+    SB_WALLS_DYNAMIC    /* two layers of boundary particles with a density of their own [W], for wcsph */
 } sb_wall_form;
 
 typedef enum sb_wall_shear {
@@ -152,11 +158,18 @@ typedef enum sb_turbulence {
     SB_TURBULENCE_SPS /* sub-particle-scale eddy viscosity [W eq. 9] */
 } sb_turbulence;
 
+/* Of the gradients of wcsph. */
+typedef enum sb_kernel_correction {
+    SB_CORRECTION_NONE,
+    SB_CORRECTION_CSPM /* by the second moments of the neighbours [W], exact for linear fields */
+} sb_kernel_correction;
+
 /* Numerical parameters. The preset gives the defaults, which the scene may override. */
 typedef struct sb_numerics {
     sb_preset preset;
     const sb_kernel *kernel;
     double support; /* support radius over spacing */
+    sb_kernel_correction kernel_correction;
     sb_density_form density;
     sb_solver solver;
     sb_tolerance_rule tolerance_rule;
@@ -171,9 +184,11 @@ typedef struct sb_numerics {
     double time_step_max;        /* s; 0: no other limit */
     double stress_correction;    /* fraction of the deviatoric particle-packing stress that is removed; 0: off */
     double stress_memory;        /* time after which stress counts as steady, in sqrt(D/g); 0: never */
+    double density_diffusion;    /* delta of wcsph; 0: term is off */
     double artificial_viscosity; /* alpha of Monaghan's viscosity; 0: term is off */
     double wall_friction;        /* sigma; 0: term is off */
     sb_wall_form walls;
+    double wall_beta; /* share of the water's pressure in that of dynamic boundary particles */
     sb_wall_shear wall_shear;
     sb_turbulence turbulence;
     double smagorinsky;  /* C_s of the eddy viscosity */

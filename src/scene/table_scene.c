@@ -181,6 +181,25 @@ static const sb_key scene_keys[] = {
 };
 /* clang-format on */
 
+/* What explicit steps do not know. */
+static sb_status check_explicit(sb_reader *reader, const sb_yaml *map, const sb_scene *scene)
+{
+    if (scene->numerics.solver != SB_SOLVER_WCSPH) return SB_OK;
+    for (int side = 0; side < 4; side++)
+        if (sb_scene_sea_side(scene, side))
+            return sb_reader_fail(reader, map, "domain",
+                                  "sides: a side of kind sea with numerics.solver wcsph, expected wall, open or "
+                                  "periodic, or another solver");
+    if (scene->fluid.surface_tension > 0)
+        return sb_reader_fail(reader, sb_yaml_child(map, "fluid"), "surface_tension",
+                              "%g N/m with numerics.solver wcsph, expected 0, or another solver",
+                              scene->fluid.surface_tension);
+    if (scene->foam.enabled)
+        return sb_reader_fail(reader, sb_yaml_child(map, "foam"), "enabled",
+                              "true with numerics.solver wcsph, expected false, or another solver");
+    return SB_OK;
+}
+
 /* Given water needs particles, and a side. */
 static sb_status check_sea(sb_reader *reader, const sb_yaml *map, const sb_scene *scene)
 {
@@ -267,7 +286,8 @@ static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_scene *scene = item;
     if (scene->control.enabled) scene->stream.enabled = true; /* it has the run's id and sends the replies */
-    sb_status status = check_sea(reader, map, scene);
+    sb_status status = check_explicit(reader, map, scene);
+    if (status == SB_OK) status = check_sea(reader, map, scene);
     if (status == SB_OK) status = finish_nested(reader, map, scene);
     if (status == SB_OK) status = check_tension(reader, map, scene);
     if (status != SB_OK || sb_scene_grid_alone(scene)) return status;

@@ -14,6 +14,7 @@
 #include "sim/walls/mirrors.h"
 #include "sim/walls/pushes.h"
 #include "sim/walls/walls.h"
+#include "sim/wcsph/wcsph.h"
 
 #include <math.h>
 
@@ -41,11 +42,11 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
     const sb_numerics *n = &scene->numerics;
     const sb_pressure_solver *solver = sb_pressure_solvers[n->solver];
     const bool shear = n->wall_shear == SB_SHEAR_SMOOTH && scene->fluid.viscosity > 0;
-    const bool settling = sb_sim_settles(scene);
+    const bool settling = sb_sim_settles(scene), wcsph = n->solver == SB_SOLVER_WCSPH;
     return (sb_needs){
-        .density_correction = n->density == SB_DENSITY_COMPLETED,
-        .stress_correction = n->stress_correction > 0,
-        .steady_stress = n->stress_correction > 0 && n->stress_memory > 0 && scene->fluid.gravity > 0,
+        .density_correction = n->density == SB_DENSITY_COMPLETED && !wcsph,
+        .stress_correction = n->stress_correction > 0 && !wcsph,
+        .steady_stress = n->stress_correction > 0 && n->stress_memory > 0 && scene->fluid.gravity > 0 && !wcsph,
         .turbulence = n->turbulence == SB_TURBULENCE_SPS,
         .wall_shear = shear,
         .wall_drag = shear || n->wall_friction > 0,
@@ -57,6 +58,9 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
         .foam = scene->foam.enabled,
         .settling = settling,
         .start_velocity = settling && starts_in_motion(model),
+        .implicit = !wcsph,
+        .wcsph = wcsph,
+        .dynamic_walls = n->walls == SB_WALLS_DYNAMIC,
         .direction = solver->needs_direction,
         .product = solver->needs_product,
     };
@@ -88,6 +92,7 @@ static void fill_particles(sb_sim *sim)
     }
     double top = 0;
     for (size_t i = 0; i < n; i++) top = fmax(top, sb_norm(model->fluid_velocity[i]));
+    sb_wcsph_begin(sim);
     sb_density_correction_clear(sim);
     sim->state.max_speed = sim->exchange->largest(sim, top);
 }
@@ -218,5 +223,6 @@ size_t sb_sim_bytes(const sb_sim *sim)
     for (int s = 0; s < SB_WALL_SETS; s++)
         bytes += sb_cells_bytes(&sim->walls.set[s].cells) + sim->walls.set[s].count * WALL_BYTES +
                  (sim->walls.set[s].near_mask + 1) * 8;
+    bytes += sim->walls.boundary.count * (4 * sizeof(float) + sizeof(uint32_t));
     return bytes + sim->walls.rest.count * WALL_BYTES;
 }

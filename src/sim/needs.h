@@ -16,6 +16,9 @@ typedef struct sb_needs {
     bool foam;                  /* water emits spray, foam and bubbles */
     bool settling;
     bool start_velocity;     /* water in motion at t = 0, after settling */
+    bool implicit;           /* steps have a pressure solve */
+    bool wcsph;              /* steps are explicit, in two halves (sim/wcsph/wcsph.h) */
+    bool dynamic_walls;      /* boundary particles have a density of their own */
     bool direction, product; /* fields of the pressure solver */
 } sb_needs;
 

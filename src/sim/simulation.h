@@ -17,7 +17,7 @@
 
 enum {
     SB_BLOCK = 1024, /* particles per unit of work */
-    SB_SIM_SKIPPED_MAX = 15
+    SB_SIM_SKIPPED_MAX = 16
 };
 
 struct sb_passes;   /* sim/passes/passes.h */

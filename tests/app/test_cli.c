@@ -99,7 +99,7 @@ static const struct {
     {"run tank2.yaml --until 3s", "--until 3s: expected"},
     {"run tank2.yaml --until=", "--until : expected"},
     {"run tank2.yaml --until 1e300", "measure.interval"},
-    {"run tank2.yaml --preset best", "best is not known, expected default or paper"},
+    {"run tank2.yaml --preset best", "best is not known, expected default, paper or wen"},
     {"run tank2.yaml --set resolution", "expected KEY=VALUE"},
     {"run tank2.yaml --set =3", "expected KEY=VALUE"},
     {"run tank2.yaml --set resolution=-1", "--set: resolution: "},
@@ -135,8 +135,8 @@ static void lists_name_all_choices(void **state)
     static const char *const tables[][6] = {
         {"kernels", "cubic", "wendland-c2", "wendland-c4"},
         {"wavemakers", "goring", "goring-rayleigh", "stroke", "file", "gate"},
-        {"solvers", "jacobi", "chebyshev", "cg"},
-        {"presets", "default", "paper"},
+        {"solvers", "jacobi", "chebyshev", "cg", "wcsph"},
+        {"presets", "default", "paper", "wen"},
     };
     for (size_t t = 0; t < sizeof tables / sizeof tables[0]; t++) {
         outcome o = RUN(0, "list", tables[t][0]);

@@ -234,7 +234,7 @@ static void test_presets(void **state)
     assert_memory_equal(&mixed.numerics, &paper.numerics, sizeof mixed.numerics);
     sb_error error = {0};
     assert_int_equal(scene_read_text(SCENE_HEAD, "fast", NULL, 0, &mixed, &error), SB_BAD_INPUT);
-    assert_string_equal(error.text, "--preset: fast is not known, expected default or paper");
+    assert_string_equal(error.text, "--preset: fast is not known, expected default, paper or wen");
     sb_scene_free(&paper);
     sb_scene_free(&usual);
     sb_scene_free(&mixed);

@@ -32,7 +32,8 @@ static void add_wall(tank *t, sb_vec3 at, sb_vec3 normal)
     m->wall_position[m->wall_count++] = at;
 }
 
-const char *const tank_preset_names[] = {[SB_PRESET_DEFAULT] = "default", [SB_PRESET_PAPER] = "paper"};
+const char *const tank_preset_names[] = {
+    [SB_PRESET_DEFAULT] = "default", [SB_PRESET_PAPER] = "paper", [SB_PRESET_WEN] = "wen"};
 
 /* Text of a vector in a scene: two components in 2D. */
 static void write_vector(char text[SB_TANK_TEXT], int dimensions, sb_vec3 v)

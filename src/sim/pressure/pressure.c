@@ -13,6 +13,7 @@ const sb_pressure_solver *const sb_pressure_solvers[] = {
     [SB_SOLVER_JACOBI] = &sb_solver_jacobi,
     [SB_SOLVER_CHEBYSHEV] = &sb_solver_chebyshev,
     [SB_SOLVER_CG] = &sb_solver_cg,
+    [SB_SOLVER_WCSPH] = &sb_solver_wcsph,
     NULL,
 };
 

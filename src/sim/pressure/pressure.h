@@ -20,13 +20,15 @@ typedef struct sb_pressure_error {
    sim->work.solve.iterations and error_* by sb_pressure_judge. */
 typedef struct sb_pressure_solver {
     const char *name, *summary, *reference;
-    bool needs_direction, needs_product; /* fields needed in addition to residual */
-    sb_status (*solve)(sb_sim *sim, sb_error *error);
+    bool needs_direction, needs_product;              /* fields needed in addition to residual */
+    sb_status (*solve)(sb_sim *sim, sb_error *error); /* NULL: steps have no solve */
 } sb_pressure_solver;
 
 /* Rows in the order of enum sb_solver. */
 extern const sb_pressure_solver *const sb_pressure_solvers[];
 extern const sb_pressure_solver sb_solver_jacobi, sb_solver_chebyshev, sb_solver_cg;
+/* No solver: explicit steps (sim/wcsph/wcsph.h). */
+extern const sb_pressure_solver sb_solver_wcsph;
 
 /* Largest eigenvalue of D^-1 A that the solvers assume: that of a full lattice with a margin for disorder and walls. */
 double sb_pressure_spectrum(const sb_sim *sim);

@@ -41,6 +41,7 @@ void sb_report_skipped(sb_sim *sim)
     if (!sim->needs.turbulence)
         skip(sim, &s, "turbulence: none, no strain rates and no memory for eddy viscosities", 1,
              sb_work_cost(&sim->needs, "eddy"));
+    if (!sim->needs.implicit) skip(sim, &s, "pressure solve: none, the equation of state gives the pressure", 0, 0);
     if (!sim->needs.density_correction)
         skip(sim, &s, "density correction: off (density: summed), no memory for it", 0,
              sizeof *sim->state.density_correction);

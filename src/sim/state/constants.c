@@ -1,5 +1,6 @@
 #include "sim/state/constants.h"
 
+#include "physics/tait.h"
 #include "sim/state/lattice.h"
 
 #include <math.h>
@@ -29,6 +30,15 @@ static double capillary_speed(const sb_scene *scene, const sb_model *model)
     return sqrt(2 * scene->fluid.surface_tension / (scene->fluid.density * fmax(radius, dr)));
 }
 
+/* Greatest speed of the water at t = 0, m/s. */
+static double fastest_start(const sb_model *model)
+{
+    double speed = 0;
+    for (size_t i = 0; i < model->fluid_count && model->fluid_velocity; i++)
+        speed = fmax(speed, sb_norm(model->fluid_velocity[i]));
+    return speed;
+}
+
 sb_constants sb_constants_of(const sb_scene *scene, const sb_model *model)
 {
     double dr = scene->resolution, g = scene->fluid.gravity;
@@ -36,6 +46,8 @@ sb_constants sb_constants_of(const sb_scene *scene, const sb_model *model)
     double wave_speed = g > 0 ? sb_model_wave_speed(scene, model) : 1;
     if (scene->fluid.surface_tension > 0) wave_speed = fmax(g > 0 ? wave_speed : 0, capillary_speed(scene, model));
     double sound = scene->numerics.sound_speed > 0 ? scene->numerics.sound_speed : 10 * wave_speed;
+    if (scene->numerics.solver == SB_SOLVER_WCSPH && !(scene->numerics.sound_speed > 0))
+        sound = fmax(sound, 10 * fastest_start(model));
     return (sb_constants){
         .dimension = scene->dimensions,
         .spacing = (float)dr,
@@ -46,6 +58,7 @@ sb_constants sb_constants_of(const sb_scene *scene, const sb_model *model)
         .wave_speed = (float)wave_speed,
         .slowest = (float)slowest(scene, model),
         .sound_speed = (float)sound,
+        .stiffness = (float)sb_tait_stiffness(scene->fluid.density, sound),
         .viscosity = (float)scene->fluid.viscosity,
         .surface_tension = (float)scene->fluid.surface_tension,
         .full_diagonal = (float)sb_lattice_diagonal(scene, mass),

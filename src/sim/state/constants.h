@@ -13,6 +13,7 @@ typedef struct sb_constants {
     float wave_speed;         /* m/s, sqrt(g D); with surface tension at least sqrt(2 sigma/(rho R)) */
     float slowest;            /* 1/s, circular frequency of the water's slowest oscillation */
     float sound_speed;        /* m/s */
+    float stiffness;          /* Pa, B of the equation of state of wcsph (physics/tait.h) */
     float viscosity;          /* m^2/s, physical */
     float surface_tension;    /* N/m; 0: off */
     float full_diagonal;      /* |a_ii|/dt^2 of a full lattice: the scale of a_ii */

@@ -4,6 +4,7 @@
 #include "sim/exchange/sums.h"
 #include "sim/sea/strip.h"
 #include "sim/walls/absorber.h"
+#include "sim/wcsph/boundary.h"
 
 #include <stddef.h>
 
@@ -50,6 +51,7 @@ static uint64_t particle_hash(const sb_sim *sim, size_t i)
                                sim->state.id[i]};
     uint64_t hash = sb_hash(0, place, sizeof place);
     hash = sb_hash(hash, &sim->state.velocity[i], sizeof sim->state.velocity[i]);
+    if (sim->state.excess) hash = sb_hash(hash, &sim->state.excess[i], sizeof *sim->state.excess);
     if (sim->state.density_correction)
         hash = sb_hash(hash, &sim->state.density_correction[i], sizeof *sim->state.density_correction);
     if (sim->state.steady_stress) {
@@ -74,6 +76,7 @@ uint64_t sb_sim_hash(const sb_sim *sim)
     if (sim->needs.sponge) hash = sb_hash(hash, &sim->state.ledger.sponge, sizeof sim->state.ledger.sponge);
     if (sim->needs.surface_tension) hash = sb_hash(hash, &sim->state.ledger.tension, sizeof sim->state.ledger.tension);
     hash = sb_absorbers_hash(sim, hash);
+    hash = sb_boundary_hash(sim, hash);
     hash = sb_hash(hash, &sim->state.time, sizeof sim->state.time);
     return sb_hash(hash, &sim->state.step, sizeof sim->state.step);
 }

@@ -12,6 +12,7 @@
 #include "sim/step/settle.h"
 #include "sim/walls/absorber.h"
 #include "sim/walls/walls.h"
+#include "sim/wcsph/wcsph.h"
 
 #include <math.h>
 
@@ -94,7 +95,7 @@ void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
     sb_departures_save(sim, out);
     for (const sb_state_field *f = sb_state_fields; f->name; f++) {
         const void *entries = sb_state_entries(&sim->state, f);
-        sb_put_list(out, entries, entries ? sim->state.n : 0, f->size);
+        if (!f->apart) sb_put_list(out, entries, entries ? sim->state.n : 0, f->size);
     }
     sb_put_list(out, sim->state.impulse, sim->model->body_count, sizeof *sim->state.impulse);
     sb_put_list(out, &sim->state.ledger, sizeof sim->state.ledger / sizeof(double), sizeof(double));
@@ -108,6 +109,7 @@ void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
     }
     sb_absorbers_save(sim, out);
     sb_foam_save(sim, out);
+    sb_wcsph_save(sim, out);
     sb_put_count(out, sb_sim_hash(sim));
 }
 
@@ -139,7 +141,7 @@ static void take_particles(sb_sim *sim, sb_archive_in *in)
         sb_archive_refuse(in, "%zu particles: not enough memory", n);
     for (const sb_state_field *f = sb_state_fields; f->name; f++) {
         void *entries = sb_state_entries(state, f);
-        sb_take_list(in, entries, entries ? n : 0, f->size);
+        if (!f->apart) sb_take_list(in, entries, entries ? n : 0, f->size);
     }
     state->n = in->error.status == SB_OK ? n : 0;
 }
@@ -199,6 +201,7 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
     take_moving(sim, in);
     sb_absorbers_load(sim, in);
     sb_foam_load(sim, in);
+    sb_wcsph_load(sim, in);
     const uint64_t expected = sb_take_count(in, UINT64_MAX), hash = sb_sim_hash(sim);
     if (in->error.status == SB_OK && hash != expected)
         sb_archive_refuse(in, "state hash is %016llx, expected %016llx", (unsigned long long)hash,

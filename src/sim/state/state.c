@@ -10,6 +10,8 @@ const sb_state_field sb_state_fields[] = {
     {FIELD(position), .unit = "quanta", .ghosts = true, .needed = SB_ALWAYS},
     {FIELD(velocity), .unit = "m/s", .ghosts = true, .needed = SB_ALWAYS},
     {FIELD(id), .unit = "", .needed = SB_ALWAYS},
+    {FIELD(excess), .unit = "kg/m^3", .needed = SB_NEEDS(wcsph), .apart = true},
+    {FIELD(step_begin), .unit = "m/s", .needed = SB_NEEDS(wcsph), .apart = true},
     {FIELD(density_correction), .unit = "kg/m^3", .needed = SB_NEEDS(density_correction)},
     {FIELD(steady_stress), .unit = "Pa m^6/kg^2", .needed = SB_NEEDS(steady_stress)},
     {FIELD(steady_stress_xx), .unit = "Pa m^6/kg^2", .needed = SB_NEEDS(steady_stress)},

@@ -30,6 +30,8 @@ typedef struct sb_state {
     sb_record *position;       /* last lane: argument of the pressure operator, which is no part of the state */
     sb_f4 *velocity;           /* last lane: pressure in Pa, with which the next solve starts */
     uint32_t *id;              /* a particle keeps its number, and no number is used twice */
+    float *excess;             /* kg/m^3, density above the rest density, of wcsph; NULL: steps are implicit */
+    sb_f4 *step_begin;         /* velocity and, last lane, excess at the step's start, of wcsph; NULL: not needed */
     float *density_correction; /* c_i (sim/terms/density_correction.h); NULL: off; NAN: not known yet */
     sb_f4 *steady_stress;      /* means over the last time (sim/terms/steady_stress.h): yy, xy, xz, yz; NULL: off */
     float *steady_stress_xx, *steady_unknown; /* xx, and q */
@@ -51,6 +53,7 @@ typedef struct sb_state_field {
     size_t size;    /* bytes of an entry: 4 or 16 */
     bool ghosts;    /* whether neighbours read it, so that ghosts have it too */
     size_t needed;  /* flag of sb_needs, or SB_ALWAYS */
+    bool apart;     /* not saved with the others (sim/wcsph/save.c) */
 } sb_state_field;
 
 /* Ends with a row without name. */

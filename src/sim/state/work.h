@@ -91,6 +91,7 @@ typedef struct sb_work {
     sb_f4 *predicted; /* m/s, v*: the velocity before the pressure */
 
     float *source;       /* b_i, kg/m^3 */
+    float *rate;         /* kg/m^3/s, of the density, of wcsph; NULL: steps are implicit */
     float *unknown;      /* q = p / rho^2 */
     float *residual;     /* e_i = (A q)_i - b_i */
     float *direction;    /* search direction of the solver; NULL: it needs none */
@@ -103,8 +104,10 @@ typedef struct sb_work {
 
     uint64_t everywhere;  /* owned particles of all domains */
     double *body_force;   /* per body SB_FORCE_VALUES values, of all domains */
-    double *stress_force; /* the same by the stress correction, with images; else 0 */
+    double *stress_force; /* the same by the stress correction, with images, or by the pressures of
+                            dynamic boundary particles; else 0 */
     sb_ledger_sums sums;
+    double first_rise;   /* quanta, sum of the changes of z in the first half; else 0 */
     double sponge_work;  /* per unit of mass, by sponges */
     double tension_work; /* per unit of mass, by surface tension */
     sb_vec3 sponge_gain; /* kg m/s, momentum by sponges */

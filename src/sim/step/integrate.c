@@ -1,18 +1,10 @@
 /* The symplectic update [S16, eqs. 17, 18]. */
 #include "sim/exchange/sums.h"
 #include "sim/step/ledger.h"
+#include "sim/step/motion.h"
 #include "sim/step/stages.h"
 
 #include <math.h>
-
-/* Rounds to quanta. A clamped position is outside of the domain, and the sort drops the particle. */
-SB_INLINE uint32_t moved(uint32_t from, float step)
-{
-    float bound = 1.0e9f;
-    step = step < -bound ? -bound : step > bound ? bound : step;
-    int64_t to = (int64_t)from + (int64_t)rintf(step);
-    return to < 0 ? 0 : to >= SB_POSITION_END ? SB_POSITION_END - 1 : (uint32_t)to;
-}
 
 /* Largest squared speed of the block (NaN if any speed is NaN), and its particle. */
 typedef struct fastest {
@@ -49,10 +41,11 @@ static fastest accelerate(sb_sim *sim, size_t block)
 
 /* The velocity with which a particle moves. A particle under pressure moves with the velocity at the step's end, which
    the solve has made divergence-free. A particle without neighbours moves with the mean of the velocities before and
-   after the step, and so follows its ballistic parabola. */
+   after the step, and so follows its ballistic parabola. In the second half of an explicit step all particles move with
+   the velocity at the step's end; in the first half they moved with that at its start. */
 SB_INLINE sb_f4 moving_velocity(const sb_sim *sim, size_t i, sb_f4 start, sb_f4 end)
 {
-    return sim->work.diagonal[i] > 0 ? end : (start + end) * sb_splat(0.5f);
+    return sim->work.diagonal[i] > 0 || sim->needs.wcsph ? end : (start + end) * sb_splat(0.5f);
 }
 
 /* Moves the particles of a group. Returns their largest squared speed, after contact resolution. book: whether to
@@ -61,7 +54,8 @@ SB_INLINE float move_group(sb_sim *sim, const sb_group *group, bool book, double
 {
     const sb_f4 *start = sim->state.velocity;
     sb_ledger_tally tally = {0};
-    const float step = sim->policy->moves ? (float)(sim->state.time_step / sim->space.quantum) : 0;
+    const float part = sim->needs.wcsph ? 0.5f : 1;
+    const float step = sim->policy->moves ? part * (float)(sim->state.time_step / sim->space.quantum) : 0;
     const float after = sim->policy->keep_after;
     const sb_f4 keep = {after, after, after, 1};
     float top = 0;
@@ -69,9 +63,9 @@ SB_INLINE float move_group(sb_sim *sim, const sb_group *group, bool book, double
         sb_f4 v = sim->work.end_velocity[i];
         const sb_f4 way = book ? moving_velocity(sim, i, start[i], v) : v;
         const uint32_t height = sim->state.position[i][2];
-        sim->state.position[i] = (sb_record){moved(sim->state.position[i][0], way[0] * step),
-                                             moved(sim->state.position[i][1], way[1] * step),
-                                             moved(sim->state.position[i][2], way[2] * step), 0};
+        sim->state.position[i] = (sb_record){sb_moved(sim->state.position[i][0], way[0] * step),
+                                             sb_moved(sim->state.position[i][1], way[1] * step),
+                                             sb_moved(sim->state.position[i][2], way[2] * step), 0};
         if (book)
             sb_ledger_add(&tally, start[i], sim->work.predicted[i], v, (int64_t)sim->state.position[i][2] - height);
         sim->state.velocity[i] = book ? v : v * keep;
@@ -135,6 +129,7 @@ sb_status sb_stage_move(sb_sim *sim, sb_error *error)
     double *const sums[SB_TALLY_TERMS] = {&s->forces,  &s->solve,   &s->fall,    &s->rise,
                                           &s->gain[0], &s->gain[1], &s->gain[2], &s->size};
     for (size_t k = 0; k < SB_TALLY_TERMS; k++) *sums[k] = sum[k];
+    s->rise += sim->work.first_rise;
     if (sim->policy->runs) sb_ledger_close(sim);
     sim->state.max_speed = sqrt(fmax(top, 0));
     sim->state.time += sim->policy->runs ? sim->state.time_step : 0;

@@ -11,61 +11,81 @@
 #include "sim/terms/surface_tension.h"
 #include "sim/terms/turbulence.h"
 #include "sim/walls/pushes.h"
+#include "sim/wcsph/boundary.h"
+#include "sim/wcsph/wcsph.h"
 
 typedef struct stage {
     const char *name;
     sb_phase phase; /* the first of its phases */
     sb_status (*run)(sb_sim *sim, sb_error *error);
     size_t needed; /* flag of sb_needs, or SB_ALWAYS */
+    int halves;    /* of an explicit step that have it; an implicit step has no halves */
 } stage;
+
+enum { FIRST = 1, SECOND = 2, BOTH = FIRST | SECOND, IMPLICIT = BOTH /* explicit steps do not have it */ };
 
 static const stage stages[] = {
     /* dt from the present speeds */
-    {"time_step", SB_PHASES, sb_stage_time_step, SB_ALWAYS},
+    {"time_step", SB_PHASES, sb_stage_time_step, SB_ALWAYS, FIRST},
     /* paddles at t, their velocity to t + dt */
-    {"walls", SB_PHASES, sb_stage_walls, SB_ALWAYS},
+    {"walls", SB_PHASES, sb_stage_walls, SB_ALWAYS, FIRST},
     /* outgoing waves at sides of kind sea; particles that come in */
-    {"inflow", SB_PHASES, sb_stage_inflow, SB_NEEDS(sea)},
+    {"inflow", SB_PHASES, sb_stage_inflow, SB_NEEDS(sea), IMPLICIT},
     /* wrap at periodic sides; Z-order, cells */
-    {"sort", SB_PHASE_SORT, sb_stage_sort, SB_ALWAYS},
+    {"sort", SB_PHASE_SORT, sb_stage_sort, SB_ALWAYS, BOTH},
     /* images beyond periodic sides */
-    {"ghosts", SB_PHASE_GHOSTS, sb_stage_ghosts, SB_ALWAYS},
+    {"ghosts", SB_PHASE_GHOSTS, sb_stage_ghosts, SB_ALWAYS, BOTH},
     /* lists, density, wall vectors, diagonal */
-    {"neighbours", SB_PHASE_NEIGHBOURS, sb_stage_neighbours, SB_ALWAYS},
+    {"neighbours", SB_PHASE_NEIGHBOURS, sb_stage_neighbours, SB_ALWAYS, BOTH},
+    /* wcsph: densities of the continuity equation */
+    {"densities", SB_PHASES, sb_stage_wcsph_densities, SB_NEEDS(wcsph), BOTH},
+    /* wcsph: pressures of boundary particles, and rates of their densities */
+    {"boundary", SB_PHASES, sb_stage_boundary, SB_NEEDS(dynamic_walls), BOTH},
     /* density sums at surfaces and walls */
-    {"density_correction", SB_PHASE_DENSITY_CORRECTION, sb_stage_density_correction, SB_NEEDS(density_correction)},
+    {"density_correction", SB_PHASE_DENSITY_CORRECTION, sb_stage_density_correction, SB_NEEDS(density_correction),
+     IMPLICIT},
     /* particles of the strips of given water */
-    {"held", SB_PHASES, sb_stage_held, SB_NEEDS(sea)},
+    {"held", SB_PHASES, sb_stage_held, SB_NEEDS(sea), IMPLICIT},
     /* removes deviatoric stress of the particle packing */
-    {"stress_correction", SB_PHASE_STRAIN, sb_stage_stress_correction, SB_NEEDS(stress_correction)},
+    {"stress_correction", SB_PHASE_STRAIN, sb_stage_stress_correction, SB_NEEDS(stress_correction), IMPLICIT},
     /* eddy viscosity from the strain rate */
-    {"turbulence", SB_PHASE_TURBULENCE, sb_stage_turbulence, SB_NEEDS(turbulence)},
+    {"turbulence", SB_PHASE_TURBULENCE, sb_stage_turbulence, SB_NEEDS(turbulence), BOTH},
     /* v* = v + dt (g + viscosity + friction) */
-    {"forces", SB_PHASE_FORCES, sb_stage_forces, SB_ALWAYS},
+    {"forces", SB_PHASE_FORCES, sb_stage_forces, SB_ALWAYS, BOTH},
     /* v* += dt (surface tension) */
-    {"surface_tension", SB_PHASES, sb_stage_surface_tension, SB_NEEDS(surface_tension)},
+    {"surface_tension", SB_PHASES, sb_stage_surface_tension, SB_NEEDS(surface_tension), IMPLICIT},
     /* slows water down */
-    {"sponge", SB_PHASES, sb_stage_sponge, SB_NEEDS(sponge)},
+    {"sponge", SB_PHASES, sb_stage_sponge, SB_NEEDS(sponge), BOTH},
     /* their velocity and pressure */
-    {"hold", SB_PHASES, sb_stage_hold, SB_NEEDS(sea)},
+    {"hold", SB_PHASES, sb_stage_hold, SB_NEEDS(sea), IMPLICIT},
     /* b = beta (rho_0 - rho) - dt div v* */
-    {"source", SB_PHASE_SOURCE, sb_stage_source, SB_ALWAYS},
+    {"source", SB_PHASE_SOURCE, sb_stage_source, SB_NEEDS(implicit), IMPLICIT},
     /* q >= 0, A q <= b, and its acceleration */
-    {"pressure", SB_PHASE_PRESSURE, sb_stage_pressure, SB_ALWAYS},
+    {"pressure", SB_PHASE_PRESSURE, sb_stage_pressure, SB_NEEDS(implicit), IMPLICIT},
+    /* wcsph: acceleration by the pressure, rates of the densities */
+    {"rates", SB_PHASE_PRESSURE, sb_stage_wcsph_rates, SB_NEEDS(wcsph), BOTH},
+    /* wcsph: the middle of the step */
+    {"predict", SB_PHASES, sb_stage_wcsph_predict, SB_NEEDS(wcsph), FIRST},
+    /* wcsph: densities at t + dt, from those at t */
+    {"correct", SB_PHASES, sb_stage_wcsph_correct, SB_NEEDS(wcsph), SECOND},
+    /* wcsph: forces on bodies by the pressures of boundary particles */
+    {"boundary_forces", SB_PHASES, sb_stage_boundary_forces, SB_NEEDS(dynamic_walls), SECOND},
     /* v at t + dt */
-    {"accelerate", SB_PHASE_ACCELERATE, sb_stage_accelerate, SB_ALWAYS},
+    {"accelerate", SB_PHASE_ACCELERATE, sb_stage_accelerate, SB_ALWAYS, SECOND},
     /* contact with walls, reactions on bodies */
-    {"impulse", SB_PHASE_IMPULSE, sb_stage_impulse, SB_ALWAYS},
+    {"impulse", SB_PHASE_IMPULSE, sb_stage_impulse, SB_ALWAYS, SECOND},
     /* what has held them */
-    {"book", SB_PHASES, sb_stage_book, SB_NEEDS(sea)},
+    {"book", SB_PHASES, sb_stage_book, SB_NEEDS(sea), IMPLICIT},
     /* what sponges have taken */
-    {"drained", SB_PHASES, sb_stage_drained, SB_NEEDS(sponge)},
+    {"drained", SB_PHASES, sb_stage_drained, SB_NEEDS(sponge), SECOND},
     /* work of surface tension */
-    {"surface_work", SB_PHASES, sb_stage_surface_work, SB_NEEDS(surface_tension)},
+    {"surface_work", SB_PHASES, sb_stage_surface_work, SB_NEEDS(surface_tension), IMPLICIT},
     /* spray, foam and bubbles, which nothing else reads */
-    {"foam", SB_PHASE_FOAM, sb_stage_foam, SB_NEEDS(foam)},
+    {"foam", SB_PHASE_FOAM, sb_stage_foam, SB_NEEDS(foam), IMPLICIT},
+    /* wcsph: velocities at t, for the ledger; pressures at t + dt */
+    {"finish", SB_PHASES, sb_stage_wcsph_finish, SB_NEEDS(wcsph), SECOND},
     /* x at t + dt */
-    {"move", SB_PHASE_MOVE, sb_stage_move, SB_ALWAYS},
+    {"move", SB_PHASE_MOVE, sb_stage_move, SB_ALWAYS, SECOND},
 };
 enum { STAGES = sizeof stages / sizeof stages[0] };
 _Static_assert((int)STAGES <= (int)SB_STAGES_MAX, "stage table");
@@ -91,17 +111,19 @@ static sb_status agree(const sb_sim *sim, const char *stage_name, sb_status own,
                    (unsigned long long)sim->state.step + 1, stage_name);
 }
 
-static sb_status run_stages(sb_sim *sim, sb_error *error)
+/* Runs the stages that have one of these halves. */
+static sb_status run_stages(sb_sim *sim, int halves, sb_error *error)
 {
     sb_status status = SB_OK;
     size_t count = 0;
     for (size_t s = 0; s < STAGES && status == SB_OK; s++) {
         if (!sb_needed(&sim->needs, stages[s].needed)) continue;
         sb_stage_time *time = &sim->stage[count++];
+        time->name = stages[s].name;
+        if (!(stages[s].halves & halves)) continue;
         const double start = sb_clock();
         sb_work_enter(&sim->work, stages[s].phase);
         status = agree(sim, stages[s].name, stages[s].run(sim, error), error);
-        time->name = stages[s].name;
         time->seconds += sb_clock() - start;
         time->calls++;
 #ifdef SB_DEBUG
@@ -116,7 +138,8 @@ sb_status sb_sim_step(sb_sim *sim, sb_error *error)
 {
     sim->work.lists_current = sim->work.virial_known = false;
     sb_pushes_clear(sim->pushes);
-    const sb_status status = run_stages(sim, error);
+    sb_status status = run_stages(sim, sim->needs.wcsph ? FIRST : BOTH, error);
+    if (sim->needs.wcsph && status == SB_OK) status = run_stages(sim, SECOND, error);
     sim->work.lists_current = status == SB_OK;
     sb_report_update(sim);
     return status;

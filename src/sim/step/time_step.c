@@ -2,6 +2,7 @@
 #include "sim/simulation.h"
 #include "sim/step/stages.h"
 #include "sim/walls/absorber.h"
+#include "sim/wcsph/wcsph.h"
 
 #include <math.h>
 
@@ -59,7 +60,9 @@ static double longest_step(const sb_numerics *n, const sb_constants *c, double s
     double h = (double)c->support, g = (double)c->gravity;
     double bound = n->time_step_rule == SB_TIME_STEP_PAPER ? n->time_step_factor * h / g
                                                            : n->time_step_factor * h / (double)c->wave_speed;
-    double dt = fmin(fmin(cfl_step(n, c, speed), bound * stretched), viscous_step(n, c));
+    double dt = n->solver == SB_SOLVER_WCSPH ? sb_wcsph_longest_step(n, c, speed)
+                                             : fmin(cfl_step(n, c, speed), bound * stretched);
+    dt = fmin(dt, viscous_step(n, c));
     if (c->surface_tension > 0) dt = fmin(dt, capillary_step(c));
     return n->time_step_max > 0 ? fmin(dt, n->time_step_max) : dt;
 }

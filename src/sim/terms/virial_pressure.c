@@ -10,6 +10,7 @@
 
 void sb_sim_find_virial_pressures(sb_sim *sim)
 {
+    if (sim->needs.wcsph) return; /* the equation of state gives the pressures */
     if (!sim->work.lists_current || sim->work.virial_known) return;
     sb_work_enter(&sim->work, SB_PHASE_AFTER);
     sim->passes->virial(sim);

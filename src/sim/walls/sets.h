@@ -14,6 +14,7 @@ typedef struct sb_wall_set {
     sb_record *record; /* sorted by cell; last lane: psi_b in kg (kg/m in 2D) */
     uint32_t *body;    /* model body of each */
     sb_f4 *normal;     /* unit, towards the water; 0 0 0 if the model has none */
+    uint32_t *number;  /* of dynamic boundary particles (sim/wcsph/boundary.h); NULL: they are not */
     sb_cells cells;
     uint64_t *near; /* hash set of Z-order blocks with walls in or beside them */
     uint64_t near_mask;
@@ -40,6 +41,7 @@ typedef struct sb_moving_rest {
     sb_record *record;
     uint32_t *body;
     sb_f4 *normal;
+    uint32_t *number; /* as in sb_wall_set */
 } sb_moving_rest;
 
 struct sb_mirror; /* sim/walls/mirrors.c */
@@ -57,8 +59,17 @@ typedef struct sb_mirrors {
     struct sb_mirror_entry *entry; /* sorted by block */
 } sb_mirrors;
 
+/* Dynamic boundary particles by number (sim/wcsph/boundary.h). count 0: there are none. */
+typedef struct sb_boundary {
+    size_t count;
+    float *excess, *begin; /* kg/m^3, density above the rest density, at present and at the step's start; NAN: dry */
+    float *rate;           /* kg/m^3/s, of the density */
+    float *load;           /* q = p/rho^2 */
+} sb_boundary;
+
 typedef struct sb_walls {
     sb_mirrors mirrors;
+    sb_boundary boundary;
     sb_wall_set set[SB_WALL_SETS];
     sb_moving_rest rest;
     size_t moving_count;

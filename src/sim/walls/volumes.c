@@ -3,6 +3,7 @@
 #include "physics/wall_volume.h"
 #include "sim/simulation.h"
 #include "sim/walls/walls.h"
+#include "sim/wcsph/boundary.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,6 +42,8 @@ static void add_sums(const sb_sim *sim, const sb_wall_set *set, sb_record at, si
 
 int sb_wall_volumes(const sb_sim *sim, sb_wall_set *set, bool only_own)
 {
+    for (size_t i = 0; i < set->count; i++) sb_carry(&set->record[i], sim->constant.mass);
+    if (sim->needs.dynamic_walls) return 0;
     float *psi = sb_alloc_untouched(set->count, sizeof *psi);
     if (!psi) return -1;
     const sb_numerics *n = &sim->scene->numerics;
@@ -84,10 +87,12 @@ int sb_wall_images(sb_wall_set *set, const sb_space *space)
         lengthen((void **)&set->body, own, all, sizeof *set->body) != 0 ||
         lengthen((void **)&set->normal, own, all, sizeof *set->normal) != 0)
         return -1;
+    if (set->number && lengthen((void **)&set->number, own, all, sizeof *set->number) != 0) return -1;
     for (size_t i = 0; i < own; i++) {
         int images = sb_space_images(space, set->record[i], image);
         for (int k = 0; k < images; k++) {
             set->record[set->count] = image[k];
+            if (set->number) set->number[set->count] = set->number[i] | SB_BOUNDARY_IMAGE;
             set->body[set->count] = set->body[i];
             set->normal[set->count++] = set->normal[i];
         }

@@ -8,6 +8,7 @@
 #include "sim/step/stages.h"
 #include "sim/walls/absorber.h"
 #include "sim/walls/mirrors.h"
+#include "sim/wcsph/boundary.h"
 
 #include <math.h>
 #include <string.h>
@@ -89,6 +90,8 @@ static int table_build(sb_wall_set *set, const sb_space *space)
     memcpy(set->record, record, n * sizeof *record);
     memcpy(set->body, body, n * sizeof *body);
     memcpy(set->normal, normal, n * sizeof *normal);
+    for (size_t i = 0; i < n && set->number; i++) body[i] = set->number[sb_word_index(sorted[i])];
+    if (set->number) memcpy(set->number, body, n * sizeof *body);
     status = sb_cells_build(&set->cells, set->record, n, space->shift);
 done:
     sb_free(words);
@@ -134,7 +137,7 @@ static int copy_set(sb_sim *sim, bool moving, sb_wall_set *set)
         }
     }
     set->count = at;
-    return 0;
+    return sim->needs.dynamic_walls ? sb_boundary_layers(sim, set) : 0;
 }
 
 sb_status sb_paddles_create(sb_sim *sim, sb_error *error)
@@ -176,18 +179,23 @@ sb_status sb_walls_create(sb_sim *sim, sb_error *error)
             return sb_fail_memory(error, "images of boundary particles");
         if (near_build(set, &sim->space) != 0) return sb_fail_memory(error, "boundary particles");
     }
+    if (sim->needs.dynamic_walls && sb_boundary_create(sim) != 0)
+        return sb_fail_memory(error, "dynamic boundary particles");
     if (sim->needs.images && (status = sb_mirrors_create(sim, error)) != SB_OK) return status;
     const sb_wall_set *set = &sim->walls.set[SB_MOVING];
     sim->walls.rest.count = set->count;
     sim->walls.rest.record = sb_alloc_untouched(set->count, sizeof *sim->walls.rest.record);
     sim->walls.rest.body = sb_alloc_untouched(set->count, sizeof *sim->walls.rest.body);
     sim->walls.rest.normal = sb_alloc_untouched(set->count, sizeof *sim->walls.rest.normal);
+    sim->walls.rest.number = set->number ? sb_alloc_untouched(set->count, sizeof *set->number) : NULL;
+    if (set->number && !sim->walls.rest.number) return sb_fail_memory(error, "moving boundary particles");
     if (!sim->walls.rest.record || !sim->walls.rest.body || !sim->walls.rest.normal)
         return sb_fail_memory(error, "moving boundary particles");
     for (size_t i = 0; i < set->count; i++) {
         sim->walls.rest.record[i] = set->record[i];
         sim->walls.rest.body[i] = set->body[i];
         sim->walls.rest.normal[i] = set->normal[i];
+        if (set->number) sim->walls.rest.number[i] = set->number[i];
     }
     return SB_OK;
 }
@@ -198,6 +206,7 @@ void sb_walls_destroy(sb_sim *sim)
         sb_free(sim->walls.set[s].record);
         sb_free(sim->walls.set[s].body);
         sb_free(sim->walls.set[s].normal);
+        sb_free(sim->walls.set[s].number);
         sb_free(sim->walls.set[s].near);
         sb_cells_free(&sim->walls.set[s].cells);
     }
@@ -211,6 +220,8 @@ void sb_walls_destroy(sb_sim *sim)
     sb_free(sim->walls.rest.record);
     sb_free(sim->walls.rest.body);
     sb_free(sim->walls.rest.normal);
+    sb_free(sim->walls.rest.number);
+    sb_boundary_destroy(sim);
 }
 
 /* ---- moving ---- */
@@ -232,6 +243,7 @@ static void place(sb_sim *sim)
         sb_carry(&placed, sb_carried_value(sim->walls.rest.record[i]));
         set->record[set->count] = placed;
         set->normal[set->count] = sim->walls.rest.normal[i];
+        if (set->number) set->number[set->count] = sim->walls.rest.number[i];
         set->body[set->count++] = sim->walls.rest.body[i];
     }
 }

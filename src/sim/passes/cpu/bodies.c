@@ -19,12 +19,6 @@ typedef struct forces {
     sb_exact works[WORKS]; /* friction, contact, contact_bodies of sb_ledger_sums */
 } forces;
 
-/* Vector from an image of a boundary particle to the original. A force across a periodic side acts on the original. */
-static sb_vec3 to_original(const sb_space *space, sb_record image)
-{
-    return sb_sub(sb_space_position(space, sb_space_wrap(space, image)), sb_space_position(space, image));
-}
-
 /* Force of one fluid particle on one body: sums over consecutive boundary particles of the body in the particle's list,
    of slope times offset and of the drag. The force acts at the fluid particle, shifted to the original where it meets
    an image. A force along the line to a boundary particle has the same moment there. Shear is not along that line;
@@ -57,26 +51,14 @@ static void flush(tally *t)
 static void turn_to(tally *t, const sb_wall_set *set, uint32_t wall)
 {
     const uint32_t body = set->body[wall];
-    const sb_vec3 shift = t->sim->space.repeats ? to_original(&t->sim->space, set->record[wall]) : (sb_vec3){0};
+    const sb_vec3 shift = t->sim->space.repeats ? sb_wall_to_original(&t->sim->space, set->record[wall]) : (sb_vec3){0};
     if (body == t->body && shift.x == t->shift.x && shift.y == t->shift.y && shift.z == t->shift.z) return;
     flush(t);
     t->body = body;
     t->shift = shift;
 }
 
-/* Records a force between particle i and a boundary particle. */
-SB_APART void record_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 force)
-{
-    const sb_record of = sb_wall_set_of(sim, wall)->record[sb_wall_particle(wall)];
-    const sb_vec3 shift = sim->space.repeats ? to_original(&sim->space, of) : (sb_vec3){0};
-    sb_pushes_add(sim->pushes,
-                  &(sb_wall_push){.body = sb_wall_body(sim, wall),
-                                  .at = sb_add(sb_space_position(&sim->space, sim->state.position[i]), shift),
-                                  .force = force,
-                                  .from = sb_add(sb_space_position(&sim->space, of), shift)});
-}
-
-/* The same for the pressure between particle i and all boundary particles of its list. */
+/* Records the forces of the pressure between particle i and all boundary particles of its list. */
 static void record_pairs(const sb_sim *sim, size_t i)
 {
     const size_t begin = sim->work.wall_pairs.first[i], end = begin + sim->work.wall_pairs.count[i];
@@ -86,7 +68,7 @@ static void record_pairs(const sb_sim *sim, size_t i)
         const float slope = sim->work.wall_pairs.slope[k];
         if (slope == 0) continue;
         const sb_record of = sb_wall_set_of(sim, wall)->record[sb_wall_particle(wall)];
-        record_push(sim, i, wall, vector(sb_offset(sim->state.position[i], of) * sb_splat(slope), press));
+        sb_wall_push_record(sim, i, wall, vector(sb_offset(sim->state.position[i], of) * sb_splat(slope), press));
     }
 }
 
@@ -94,8 +76,8 @@ static void add_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push, f
 {
     const sb_record record = sb_wall_set_of(sim, wall)->record[sb_wall_particle(wall)];
     sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
-    if (sim->space.repeats) at = sb_add(at, to_original(&sim->space, record));
-    if (sim->pushes) record_push(sim, i, wall, push);
+    if (sim->space.repeats) at = sb_add(at, sb_wall_to_original(&sim->space, record));
+    if (sim->pushes) sb_wall_push_record(sim, i, wall, push);
     add(sim, to, sb_wall_body(sim, wall), at, push, (sb_vec3){0});
 }
 

@@ -1,6 +1,7 @@
 #include "sim/passes/cpu/body_forces.h"
 
 #include "base/memory.h"
+#include "sim/walls/entry.h"
 #include "sim/walls/mirrors.h"
 #include "sim/walls/pushes.h"
 
@@ -23,6 +24,22 @@ void sb_body_forces_free(sb_body_forces *f)
     sb_free(f->body);
     sb_free(f->acted_on);
     sb_free(f->all);
+}
+
+sb_vec3 sb_wall_to_original(const sb_space *space, sb_record image)
+{
+    return sb_sub(sb_space_position(space, sb_space_wrap(space, image)), sb_space_position(space, image));
+}
+
+void sb_wall_push_record(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 force)
+{
+    const sb_record of = sb_wall_set_of(sim, wall)->record[sb_wall_particle(wall)];
+    const sb_vec3 shift = sim->space.repeats ? sb_wall_to_original(&sim->space, of) : (sb_vec3){0};
+    sb_pushes_add(sim->pushes,
+                  &(sb_wall_push){.body = sb_wall_body(sim, wall),
+                                  .at = sb_add(sb_space_position(&sim->space, sim->state.position[i]), shift),
+                                  .force = force,
+                                  .from = sb_add(sb_space_position(&sim->space, of), shift)});
 }
 
 static void add_to(double value[3], sb_vec3 v)

@@ -17,6 +17,11 @@ typedef struct sb_body_forces {
 int sb_body_forces_create(sb_body_forces *f, size_t bodies);
 void sb_body_forces_free(sb_body_forces *f);
 
+/* Vector from an image of a boundary particle to the original. A force across a periodic side acts on the original. */
+sb_vec3 sb_wall_to_original(const sb_space *space, sb_record image);
+/* Records a force (N) between particle i and a boundary particle, as in wall_pairs, for probes. */
+void sb_wall_push_record(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 force);
+
 /* Adds a force on a body. pressure, drag: N; at: m, the point of application. */
 void sb_body_forces_add(const sb_sim *sim, sb_body_forces *to, uint32_t body, sb_vec3 at, sb_vec3 pressure,
                         sb_vec3 drag);
