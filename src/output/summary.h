@@ -7,6 +7,7 @@
 #include "frame/records.h"
 #include "frame/stage_time.h"
 #include "geometry/model/model.h"
+#include "output/grid_summary.h"
 #include "output/json.h"
 #include "output/wave_table.h"
 #include "scene/scene.h"
@@ -48,6 +49,7 @@ typedef struct sb_summary {
     const sb_body_record *bodies;     /* one per body of the model; NULL: none */
     const sb_absorption *absorptions; /* one per body of the model; NULL: none */
     const sb_gauge_waves *waves;      /* one per gauge; NULL: none */
+    const sb_grid_facts_beside *grid; /* the depth-averaged water that is the sea; NULL: none */
     size_t reflection_count;
     const sb_reflection_record *reflections;   /* since the start of each set */
     sb_energy first, last;                     /* energies at the start and at the end */

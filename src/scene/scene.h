@@ -246,9 +246,12 @@ typedef struct sb_sponge {
     double strength;      /* 1/s, at the end and behind it */
 } sb_sponge;
 
+/* Whose water a gauge reads. Without particles all read the grid. */
+typedef enum sb_gauge_water { SB_GAUGE_PARTICLES, SB_GAUGE_GRID } sb_gauge_water;
 typedef struct sb_gauge {
     char name[SB_NAME_MAX];
     double x, y;
+    sb_gauge_water water;
 } sb_gauge;
 typedef struct sb_probe {
     char name[SB_NAME_MAX];
@@ -345,6 +348,7 @@ typedef struct sb_offshore_settings {
     double manning;                    /* s/m^(1/3) */
     bool dispersion;
     double threshold; /* m, depth or rise that counts in the maps */
+    bool maps;
     bool has_uplift;
     sb_offshore_grid uplift; /* m, added to the still surface at the start */
     sb_initial_wave wave;

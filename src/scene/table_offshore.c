@@ -84,6 +84,8 @@ static const sb_key keys[] = {
     {.name = "threshold", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_offshore_settings, threshold), .unit = "m",
      SB_KEY_POSITIVE, .fallback = "0.05",
      .doc = "Rise that counts as arrival in the maps, and depth from which speed and inundation count."},
+    {.name = "maps", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_offshore_settings, maps), .fallback = "true",
+     .doc = "Maps of the greatest depth, speed and momentum flux, of arrival and of inundation, one value per cell."},
     {.name = "uplift", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_offshore_settings, uplift), .table = &grid_table,
      .applies = UPLIFT, .only = "an uplift", .derived = "none",
      .doc = "Grid of heights that are added to the still surface at the start; 0 where it has none."},
