@@ -330,7 +330,8 @@ typedef enum sb_grid_side {
     SB_GRID_SIDE_DOMAIN, /* that of the domain; of a grid that ends elsewhere: open */
     SB_GRID_SIDE_WALL,
     SB_GRID_SIDE_OPEN,
-    SB_GRID_SIDE_PERIODIC
+    SB_GRID_SIDE_PERIODIC,
+    SB_GRID_SIDE_PADDLE
 } sb_grid_side;
 typedef enum sb_coupling {
     SB_COUPLING_ONE_WAY, /* the grid gives water to the particles */
@@ -353,6 +354,9 @@ typedef struct sb_offshore_settings {
     sb_offshore_grid uplift; /* m, added to the still surface at the start */
     sb_initial_wave wave;
     sb_grid_side side[4]; /* from x_min to y_max */
+    bool has_paddle;
+    sb_wavemaker_use paddle; /* the law of the sides of kind paddle; name and body are empty */
+    double paddle_at;        /* m, x or y of its face before its motion */
     sb_coupling coupling;
 } sb_offshore_settings;
 

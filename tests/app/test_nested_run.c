@@ -126,6 +126,18 @@ static void water_at_rest_stays(void **state)
     assert_true(highest_between("rest", 0, 3) < 0.004);
 }
 
+/* The volume that has entered the grid through x_min. */
+static double entered_at_x_min(const char *path)
+{
+    static const char key[] = "\"x_min\": ";
+    char *text = text_of(path);
+    const char *object = strstr(text, "\"entered_m3\""), *at = object ? strstr(object, key) : NULL;
+    assert_non_null(at);
+    const double value = strtod(at + strlen(key), NULL);
+    sb_free(text);
+    return value;
+}
+
 /* The value in column `column` of the only row of a map. */
 static double map_value(const char *path, size_t column)
 {
@@ -177,6 +189,36 @@ static void gauges_and_maps_of_the_grid(void **state)
     assert_true(!exists("grid/maps/grid_max_depth.asc") && !exists("grid/maps/grid_max_depth.png"));
 }
 
+/* The grid's side makes the wave that a paddle with its face at -4.2 m would make. */
+static void a_paddle_makes_the_wave(void **state)
+{
+    (void)state;
+    double when;
+    const double height = 0.1, depth = 0.4, c = sqrt(9.81 * (depth + height));
+    const double kappa = sqrt(3 * height / (4 * depth * depth * (depth + height))),
+                 stroke = 2 * height / (kappa * depth);
+    const double half = (3.8 + height / depth) / (kappa * c); /* of the motion: then it is at the crest */
+    const char *const grid = "offshore={cell: 0.04, min: [-3.2], max: [4], manning: 0, sides: {x_min: paddle}, "
+                             "paddle: {kind: goring-rayleigh, height: 0.1, depth: 0.4}, paddle_at: -4.2}";
+    write_text("nested.yaml", HEAD GRID(""));
+    RUN_AND_FORGET(0, "run", "nested.yaml", "--out", "paddle", "--quiet", "--set", grid, "--set", "duration=4.5",
+                   "--set", "measure.gauges=[{name: g, x: 1.2}, {name: far, x: -1.2}]");
+    assert_near(highest_at("paddle", "far", 0, 4.5, &when), height, 1e-3);
+    assert_near(when, half + (3 - stroke / 2) / c, 0.025);
+    assert_near(highest_between("paddle", 0, 4.5), height, 0.008);
+    const double volume = entered_at_x_min("paddle/summary.json");
+    assert_near(volume, 2 * height / kappa, 2e-3 * 2 * height / kappa);
+    outcome o = RUN(1, "check", "nested.yaml", "--set", "offshore.sides={x_min: paddle}");
+    assert_contains(o.err, "offshore.sides: x_min: paddle, but there is no block offshore.paddle, expected its law");
+    outcome_free(&o);
+    o = RUN(1, "check", "nested.yaml", "--set", "offshore.paddle={kind: goring, height: 0.1, depth: 0.4}");
+    assert_contains(o.err, "offshore.paddle: no side is moved by it, expected sides: {x_min: paddle}");
+    outcome_free(&o);
+    o = RUN(1, "check", "nested.yaml", "--set", grid, "--set", "offshore.paddle={kind: gate, stroke: 1, speed: 1}");
+    assert_contains(o.err, "offshore.paddle.kind: gate moves upwards, expected a law of a piston");
+    outcome_free(&o);
+}
+
 static void gauges_outside_of_all_water_are_refused(void **state)
 {
     (void)state;
@@ -202,6 +244,7 @@ int main(void)
         cmocka_unit_test(bits_are_those_of_any_threads_and_of_a_resumed_run),
         cmocka_unit_test(water_at_rest_stays),
         cmocka_unit_test(gauges_and_maps_of_the_grid),
+        cmocka_unit_test(a_paddle_makes_the_wave),
         cmocka_unit_test(gauges_outside_of_all_water_are_refused),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
