@@ -53,6 +53,9 @@ void sb_frame_carry(sb_frame *frame, double time);
 
 /* Creates a frame with all arrays allocated and one reference; the caller fills the arrays. NULL if memory runs out. */
 sb_frame *sb_frame_create(size_t count, size_t body_count);
+/* Makes room for more particles at the end, which the caller fills, in a frame that is not published yet. Returns 0, or
+   -1 if memory runs out: the frame is then unchanged. */
+int sb_frame_extend(sb_frame *frame, size_t more);
 /* sb_frame_retain adds a reference and returns the frame. sb_frame_release removes one and frees the frame with the
    last. NULL has no effect. */
 const sb_frame *sb_frame_retain(const sb_frame *frame);

@@ -350,6 +350,7 @@ typedef struct sb_offshore_settings {
     bool dispersion;
     double threshold; /* m, depth or rise that counts in the maps */
     bool maps;
+    double drawn; /* m, distance beyond the domain to which pictures show the grid's water */
     bool has_uplift;
     sb_offshore_grid uplift; /* m, added to the still surface at the start */
     sb_initial_wave wave;

@@ -88,6 +88,9 @@ static const sb_key keys[] = {
      .doc = "Rise that counts as arrival in the maps, and depth from which speed and inundation count."},
     {.name = "maps", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_offshore_settings, maps), .fallback = "true",
      .doc = "Maps of the greatest depth, speed and momentum flux, of arrival and of inundation, one value per cell."},
+    {.name = "drawn", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_offshore_settings, drawn), .unit = "m", .min = 0,
+     .max = HUGE_VAL, .flags = SB_KEY_FREE, .derived = "half of the domain's larger horizontal extent",
+     .doc = "Beside particles: distance beyond the domain to which pictures show the grid's water; 0: not at all."},
     {.name = "uplift", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_offshore_settings, uplift), .table = &grid_table,
      .applies = UPLIFT, .only = "an uplift", .derived = "none",
      .doc = "Grid of heights that are added to the still surface at the start; 0 where it has none."},
@@ -171,6 +174,8 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
         o->x_max = domain->max.x;
         o->y_max = domain->max.y;
     }
+    if (!sb_yaml_child(map, "drawn"))
+        o->drawn = 0.5 * fmax(domain->max.x - domain->min.x, domain->max.y - domain->min.y);
     sb_status status = check_extent(reader, map, 'x', o->x_max - o->x_min, o->cell);
     if (status == SB_OK && reader->scene->dimensions == 3)
         status = check_extent(reader, map, 'y', o->y_max - o->y_min, o->cell);
