@@ -97,7 +97,8 @@ sb_offshore_push sb_offshore_paddle_at(const sb_offshore_paddle *paddle, double 
     const double speed = speed_at(paddle, t), c = phase_speed(paddle, speed);
     const double rate = (speed_at(paddle, t + d) - speed_at(paddle, t - d)) / (2 * d);
     /* A phase stays before the side for longer than at the paddle, which follows it. */
-    return (sb_offshore_push){.velocity = speed, .rate = rate * c / (c - speed), .phase = c, .form = paddle->celerity > 0};
+    return (sb_offshore_push){
+        .velocity = speed, .rate = rate * c / (c - speed), .phase = c, .form = paddle->celerity > 0};
 }
 
 double sb_offshore_push_slope(const sb_offshore_push *push, double h)

@@ -50,7 +50,8 @@ static double highest(const sb_offshore *water, double *place)
 }
 
 /* Rayleigh's profile is the solitary wave of these equations, and Goring's motion of the paddle is that of its water.
-   The side stands where the paddle begins, or where it ends. The law begins and ends with a part of its wave missing. */
+   The side stands where the paddle begins, or where it ends. The law begins and ends with a part of its wave missing.
+ */
 static void solitary_wave_is_exact(void **state)
 {
     (void)state;
@@ -131,8 +132,8 @@ static void at_rest_it_is_a_wall(void **state)
     assert_memory_equal(h[0], h[1], sizeof h[0]);
 }
 
-/* Without dispersion a piston makes a simple wave: where the water has the speed u, sqrt(g h) = sqrt(g d) + u/2. At each
-   of the four sides. */
+/* Without dispersion a piston makes a simple wave: where the water has the speed u, sqrt(g h) = sqrt(g d) + u/2. At
+   each of the four sides. */
 static void a_piston_makes_a_simple_wave(void **state)
 {
     (void)state;
