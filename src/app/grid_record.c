@@ -1,9 +1,9 @@
 #include "app/grid_record.h"
 
 #include "app/grid_frame.h"
+#include "app/grid_maps.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "output/maps.h"
 
 #include <math.h>
 #include <string.h>
@@ -126,45 +126,21 @@ sb_status sb_grid_record_begin(sb_grid_record *r, const sb_scene *scene, const c
     r->probes = sb_alloc(scene->measure.probe_count, sizeof *r->probes);
     r->runups = sb_alloc(scene->measure.runup_count, sizeof *r->runups);
     if (!r->gauges || !r->probes || !r->runups) return sb_fail_memory(error, "gauges");
-    sb_status status = sb_offshore_maps_create(water, scene->offshore.threshold, &r->maps, error);
+    sb_status status = SB_OK;
+    if (scene->offshore.maps) status = sb_offshore_maps_create(water, scene->offshore.threshold, &r->maps, error);
     if (status == SB_OK) status = sb_csv_open(directory, scene, &r->model, &r->csv, error);
     return status == SB_OK ? record(r, water, error) : status;
 }
 
 sb_status sb_grid_record_step(sb_grid_record *r, const sb_offshore *water, double taken, sb_error *error)
 {
-    sb_offshore_maps_step(r->maps, water, taken);
+    if (r->maps) sb_offshore_maps_step(r->maps, water, taken);
     return record(r, water, error);
-}
-
-/* A copy in which values below 0, "never", are NaN. */
-static float *copy_map(const float *from, size_t cells)
-{
-    float *copy = sb_alloc_untouched(cells, sizeof *copy);
-    for (size_t k = 0; copy && k < cells; k++) copy[k] = from[k] >= 0 ? from[k] : NAN;
-    return copy;
-}
-
-static sb_status write_maps(const sb_grid_record *r, const sb_offshore *water, sb_error *error)
-{
-    const sb_offshore_view v = sb_offshore_read(water);
-    const sb_offshore_map_view m = sb_offshore_maps_read(r->maps);
-    const float *const from[] = {m.depth, m.speed, m.flux, m.arrival};
-    float *copy[4] = {0};
-    sb_status status = SB_OK;
-    for (size_t k = 0; status == SB_OK && k < 4; k++) {
-        copy[k] = copy_map(from[k], m.columns * m.rows);
-        if (!copy[k]) status = sb_fail_memory(error, "maps");
-    }
-    const sb_map_record map = {m.columns, m.rows, v.x, v.y, v.cell, copy[0], copy[1], copy[2], copy[3], m.duration};
-    if (status == SB_OK) status = sb_maps_write(r->directory, &map, error);
-    for (size_t k = 0; k < 4; k++) sb_free(copy[k]);
-    return status;
 }
 
 sb_status sb_grid_record_end(sb_grid_record *r, const sb_offshore *water, sb_error *error)
 {
-    sb_status status = r->csv ? write_maps(r, water, error) : SB_OK;
+    sb_status status = r->maps ? sb_grid_maps_write(r->directory, water, r->maps, NULL, error) : SB_OK;
     sb_error late = {0};
     const sb_status closed = sb_csv_close(r->csv, &late);
     if (status == SB_OK && closed != SB_OK) {

@@ -39,18 +39,13 @@ static uint64_t hash_of(const sb_offshore *water)
     return hash;
 }
 
-static void put_volume(sb_json *json, const sb_offshore *water)
+sb_grid_volume sb_grid_volume_of(const sb_offshore *water)
 {
     const sb_offshore_balance b = sb_offshore_find_balance(water);
-    sb_json_open(json, "volume", '{');
-    sb_json_number(json, "start_m3", b.first);
-    sb_json_number(json, "end_m3", b.now);
-    sb_json_open(json, "entered_m3", '{');
-    for (int s = 0; s < SB_OFFSHORE_SIDES; s++) sb_json_number(json, sb_side_names[s], b.entered[s]);
-    sb_json_close(json);
-    sb_json_number(json, "repaired_m3", b.repaired);
-    sb_json_number(json, "imbalance_m3", sb_grid_imbalance(&b));
-    sb_json_close(json);
+    sb_grid_volume volume = {
+        .first = b.first, .now = b.now, .added = b.added, .repaired = b.repaired, .imbalance = sb_grid_imbalance(&b)};
+    for (int s = 0; s < SB_OFFSHORE_SIDES; s++) volume.entered[s] = b.entered[s];
+    return volume;
 }
 
 static void put_all(sb_json *json, const sb_grid_summary *s)
@@ -80,7 +75,8 @@ static void put_all(sb_json *json, const sb_grid_summary *s)
     sb_json_count(json, "peak_memory_bytes", sb_memory_peak());
     sb_json_count(json, "grid_files", s->frames);
     sb_json_hash(json, "state_hash", hash_of(s->water));
-    put_volume(json, s->water);
+    const sb_grid_volume volume = sb_grid_volume_of(s->water);
+    sb_grid_volume_put(json, &volume, false);
     sb_json_close(json);
 }
 

@@ -3,6 +3,7 @@
 #define SB_APP_GRID_REPORT_H
 
 #include "app/grid_water.h"
+#include "output/grid_summary.h"
 
 typedef struct sb_grid_summary {
     const sb_scene *scene;
@@ -22,6 +23,9 @@ sb_status sb_grid_summary_write(const char *path, const sb_grid_summary *summary
 
 /* Volume that the balance does not explain, m^3 (m^2 in 2D). */
 double sb_grid_imbalance(const sb_offshore_balance *balance);
+
+/* The balance of the model's volume. */
+sb_grid_volume sb_grid_volume_of(const sb_offshore *water);
 
 /* Estimates for the time that the model runs. */
 typedef struct sb_grid_cost {

@@ -1,5 +1,6 @@
 #include "app/picture_now.h"
 
+#include "app/grid_picture.h"
 #include "app/run_parts.h"
 #include "base/memory.h"
 
@@ -115,6 +116,11 @@ sb_status sb_picture_now(run *r, const sb_command *command, sb_error *error)
     if (!frame) return sb_fail_memory(error, "a frame");
     frame->index = r->frames;
     sb_measure_fill_frame(r->measure, frame);
+    status = sb_grid_picture_add(r->sim, r->scene, frame, error);
+    if (status != SB_OK) {
+        sb_frame_release(frame);
+        return status;
+    }
     sb_consumer_feed(&p->consumer, frame);
     sb_frame_release(frame);
     return SB_OK;

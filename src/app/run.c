@@ -2,6 +2,7 @@
 
 #include "app/checkpoint.h"
 #include "app/grid_frame.h"
+#include "app/grid_picture.h"
 #include "app/missed.h"
 #include "app/picture_now.h"
 #include "app/run_parts.h"
@@ -50,6 +51,10 @@ static sb_status feed_pictures(run *r, sb_error *error)
         if (!frame) return SB_FAILED;
         frame->drawn = sb_picture_times_take(&r->picture_times);
         sb_frame_carry(frame, time);
+        if (sb_grid_picture_add(r->sim, r->scene, frame, error) != SB_OK) {
+            sb_frame_release(frame);
+            return SB_FAILED;
+        }
         log_picture(r, frame->drawn, time);
         sb_consumer_feed(consumer, frame);
         sb_frame_release(frame);

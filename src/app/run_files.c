@@ -64,10 +64,13 @@ static const struct {
     {CHECKPOINTS, SB_CHECKPOINT_SETTLING, NULL, SB_CHECKPOINT_SUFFIX, SB_CHECKPOINT_KIND, 0},
     {MAPS, NULL, sb_map_name, ".asc", "ncols", 0},
     {MAPS, NULL, sb_map_name, ".png", PNG, 0},
+    {MAPS, NULL, sb_grid_map_name, ".asc", "ncols", 0},
+    {MAPS, NULL, sb_grid_map_name, ".png", PNG, 0},
     {PLOTS, NULL, sb_csv_name, ".png", PNG, 0},
     {PLOTS, NULL, sb_csv_name, ".dat", "", 0},
     {PLOTS, NULL, sb_csv_name, ".gp", "", 0},
     {PLOTS, NULL, sb_map_name, ".gp", "", 0},
+    {PLOTS, NULL, sb_grid_map_name, ".gp", "", 0},
     {PLOTS, "part", NULL, ".png", "", 0},
 };
 

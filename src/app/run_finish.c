@@ -1,4 +1,6 @@
 /* After the last step: completes all files of the run, however it ended. */
+#include "app/grid_maps.h"
+#include "app/grid_report.h"
 #include "app/missed.h"
 #include "app/run_parts.h"
 #include "app/spent.h"
@@ -179,6 +181,13 @@ static sb_absorption *find_absorptions(run *r)
     return all;
 }
 
+static sb_grid_facts_beside grid_facts(const sb_offshore *water)
+{
+    const sb_offshore_view v = sb_offshore_read(water);
+    return (sb_grid_facts_beside){v.columns, v.rows, v.cell, sb_offshore_find_effort(water).steps,
+                                  sb_grid_volume_of(water)};
+}
+
 static void write_summary(run *r, sb_status *status, sb_error *error)
 {
     char path[SB_PATH_MAX];
@@ -215,6 +224,11 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         .pictures_missing = sb_missed_sum(r, PICTURES).count,
     };
     summary.work = sb_sim_ledger(r->sim);
+    sb_grid_facts_beside grid;
+    if (sb_sim_grid(r->sim)) {
+        grid = grid_facts(sb_sim_grid(r->sim));
+        summary.grid = &grid;
+    }
     sb_absorption *absorptions = find_absorptions(r);
     summary.absorptions = absorptions;
     sb_gauge_waves *waves = NULL;
@@ -259,6 +273,16 @@ static sb_status make_films(const run *r, sb_status status, sb_error *error)
                : SB_OK;
 }
 
+/* The maps of the depth-averaged water that is the sea. */
+static void write_grid_maps(const run *r, sb_status *status, sb_error *error)
+{
+    sb_error reason = {0};
+    const sb_offshore_maps *maps = r->measure ? sb_sim_grid_maps(r->sim) : NULL;
+    if (!maps) return;
+    const sb_status found = sb_grid_maps_write(r->directory, sb_sim_grid(r->sim), maps, r->scene, &reason);
+    keep_first(status, error, found, &reason);
+}
+
 void sb_run_finish(run *r, sb_status *status, sb_error *error)
 {
     sb_error reason = {0};
@@ -277,8 +301,9 @@ void sb_run_finish(run *r, sb_status *status, sb_error *error)
         warn_of_gauges(r);
         sb_runlog_bodies(r->log, &r->model, sb_measure_bodies(r->measure));
         const sb_map_record *map = sb_measure_map(r->measure);
-        if (map) keep_first(status, error, sb_maps_write(r->directory, map, &reason), &reason);
+        if (map) keep_first(status, error, sb_maps_write(r->directory, map, false, &reason), &reason);
     }
+    write_grid_maps(r, status, error);
     const bool leaked = check_lost(r, status, error);
     if (r->sim) /* before plots and films, which take long: a user may stop the process then */
         write_summary(r, status, error);

@@ -97,7 +97,8 @@ sb_status sb_run_check_folders(const run *r, sb_error *error)
     if (scene->output.particle_interval > 0) status = check_folder(r, SB_PARTICLE_FOLDER, error);
     if (status == SB_OK && scene->output.particle_interval > 0 && scene->foam.enabled)
         status = check_folder(r, SB_FOAM_FOLDER, error);
-    if (status == SB_OK && scene->measure.map.present) status = check_folder(r, "maps", error);
+    const bool grid_maps = sb_scene_nested(scene) && scene->offshore.maps;
+    if (status == SB_OK && (scene->measure.map.present || grid_maps)) status = check_folder(r, "maps", error);
     if (status == SB_OK && scene->output.plots) status = check_folder(r, "plots", error);
     if (status == SB_OK && film) status = check_cameras(r, "frames", error);
     if (status == SB_OK && stills) status = check_cameras(r, "stills", error);

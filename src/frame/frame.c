@@ -71,6 +71,40 @@ bool sb_frame_add_density_error(sb_frame *frame)
     return frame->density_error != NULL;
 }
 
+/* A copy of an array with room for more. NULL if memory runs out. */
+static void *longer(const void *from, size_t count, size_t more, size_t size)
+{
+    void *made = sb_alloc_untouched(count + more, size);
+    if (made) memcpy(made, from, count * size);
+    return made;
+}
+
+int sb_frame_extend(sb_frame *frame, size_t more)
+{
+    const size_t n = frame->count;
+    if (more > SIZE_MAX / (3 * sizeof(float)) - n) return -1;
+    float *position = longer(frame->position, 3 * n, 3 * more, sizeof *position);
+    float *velocity = longer(frame->velocity, 3 * n, 3 * more, sizeof *velocity);
+    float *pressure = longer(frame->pressure, n, more, sizeof *pressure);
+    uint32_t *id = longer(frame->id, n, more, sizeof *id);
+    float *error = frame->density_error ? longer(frame->density_error, n, more, sizeof *error) : NULL;
+    const bool made = position && velocity && pressure && id && (error || !frame->density_error);
+    sb_free(made ? frame->position : position);
+    sb_free(made ? frame->velocity : velocity);
+    sb_free(made ? frame->pressure : pressure);
+    sb_free(made ? frame->id : id);
+    sb_free(made ? frame->density_error : error);
+    if (!made) return -1;
+    if (error) memset(error + n, 0, more * sizeof *error);
+    frame->density_error = error;
+    frame->position = position;
+    frame->velocity = velocity;
+    frame->pressure = pressure;
+    frame->id = id;
+    frame->count = n + more;
+    return 0;
+}
+
 void sb_frame_carry(sb_frame *frame, double time)
 {
     const double dt = time - frame->status.time;

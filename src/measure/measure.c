@@ -132,8 +132,11 @@ static sb_status record_instants(sb_measure *measure, const sb_measure_view *vie
         record->gauge = i;
         record->time = time;
         double water = 0;
-        status = sb_gauge_read(view, settings->gauges[i].x, settings->gauges[i].y, &measure->floors[i], &record->z,
-                               &water, error);
+        if (settings->gauges[i].water == SB_GAUGE_GRID)
+            record->z = sb_grid_gauge_read(view->sim, measure->scene, &settings->gauges[i], time);
+        else
+            status = sb_gauge_read(view, settings->gauges[i].x, settings->gauges[i].y, &measure->floors[i], &record->z,
+                                   &water, error);
         record->eta = sea->present ? record->z - sea->level : (double)NAN;
         gauge_state *state = &measure->gauges[i];
         if (isnan(record->z))
@@ -257,8 +260,9 @@ static sb_status prepare_fields(sb_measure *measure, const sb_measure_view *view
         if (!measure->floors || !measure->gauges) return sb_fail_memory(error, "measure.gauges");
     }
     for (size_t i = 0; status == SB_OK && i < settings->gauge_count; i++)
-        status = sb_floors_find(measure->scene, measure->model, settings->gauges[i].x, settings->gauges[i].y,
-                                &measure->floors[i], error);
+        if (settings->gauges[i].water == SB_GAUGE_PARTICLES)
+            status = sb_floors_find(measure->scene, measure->model, settings->gauges[i].x, settings->gauges[i].y,
+                                    &measure->floors[i], error);
     if (settings->probe_count) {
         measure->patches = sb_alloc(settings->probe_count, sizeof(sb_patch *));
         measure->probes = sb_alloc(settings->probe_count, sizeof *measure->probes);

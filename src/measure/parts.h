@@ -41,6 +41,9 @@ static inline double sb_bspline(double u)
 sb_status sb_gauge_read(const sb_measure_view *view, double x, double y, const sb_floors *floors, double *z,
                         double *water, sb_error *error);
 
+/* The same in the depth-averaged water beside the particles, at a time of the run, s. */
+double sb_grid_gauge_read(const sb_sim *sim, const sb_scene *scene, const sb_gauge *gauge, double time);
+
 /* The part of a wall around a probe: see patch.h. */
 typedef struct sb_patch sb_patch;
 

@@ -1,5 +1,6 @@
 #include "base/memory.h"
 #include "offshore/dispersion.h"
+#include "offshore/paddle.h"
 #include "offshore/state.h"
 
 #include <math.h>
@@ -48,6 +49,8 @@ static sb_status check(const sb_offshore_options *o, sb_error *error)
     for (int s = 0; s < (o->rows == 1 ? 2 : SB_OFFSHORE_SIDES); s++) {
         if (o->side[s] == SB_OFFSHORE_GIVEN && !o->given)
             return sb_fail(error, SB_BAD_INPUT, "offshore: side %d is given, expected a function that gives it", s);
+        if (o->side[s] == SB_OFFSHORE_PADDLE && !o->paddle)
+            return sb_fail(error, SB_BAD_INPUT, "offshore: side %d is a paddle, expected a law of its motion", s);
         if (o->side[s] == SB_OFFSHORE_PERIODIC && o->side[s ^ 1] != SB_OFFSHORE_PERIODIC)
             return sb_fail(error, SB_BAD_INPUT, "offshore: side %d is periodic, expected the opposite side too", s);
     }
@@ -137,6 +140,7 @@ sb_status sb_offshore_create(const sb_offshore_options *options, const double *b
     status = allocate(made, error);
     if (status == SB_OK) status = copy_in(made, bed, depth, hu, hv, error);
     if (status != SB_OK) {
+        made->options.paddle = NULL;
         sb_offshore_destroy(made);
         return status;
     }
@@ -161,5 +165,6 @@ void sb_offshore_destroy(sb_offshore *offshore)
                               offshore->line_speed, offshore->line_repaired, offshore->edge};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) sb_free(arrays[k]);
     sb_offshore_dispersion_destroy(offshore->dispersion);
+    sb_offshore_paddle_destroy(offshore->options.paddle);
     sb_free(offshore);
 }

@@ -16,6 +16,7 @@
 #include "offshore/dispersion.h"
 #include "base/memory.h"
 #include "offshore/jump.h"
+#include "offshore/paddle.h"
 #include "offshore/stencil.h"
 
 #include <string.h>
@@ -188,6 +189,7 @@ sb_status sb_offshore_find_dispersion(sb_offshore *offshore, const sb_offshore_l
     const double ahead = stage == 1 && d->last_dt > 0 ? dt / d->last_dt : 0;
     on_rows(offshore, level, ASSEMBLE, ahead);
     sb_offshore_jump_system(offshore, level, ahead);
+    if (offshore->options.paddle) sb_offshore_paddle_system(offshore, level, d->system.scale, d->system.residual);
     if (stage == 1) memcpy(d->earlier, d->pressure, offshore->cells * sizeof *d->earlier);
     sb_offshore_wrap(offshore, d->system.scale, 0);
     on_rows(offshore, level, SCALE, 0);
@@ -197,6 +199,7 @@ sb_status sb_offshore_find_dispersion(sb_offshore *offshore, const sb_offshore_l
                        offshore->time);
     on_rows(offshore, level, PRESSURE, 0);
     sb_offshore_wrap(offshore, d->pressure, 1);
+    if (offshore->options.paddle) sb_offshore_paddle_beyond(offshore, level, d->system.scale, d->pressure);
     on_rows(offshore, level, FORCES, 0);
     sb_offshore_jump_forces(offshore);
     d->iterations = (stage == 0 ? 0 : d->iterations) + (uint64_t)iterations;

@@ -10,11 +10,20 @@ struct sb_offshore_maps {
     float *depth, *speed, *flux, *arrival, *duration, *start;
 };
 
+enum { ARRAYS = 6 };
+
+static void find_arrays(sb_offshore_maps *maps, float **arrays[ARRAYS])
+{
+    float **const all[] = {&maps->depth, &maps->speed, &maps->flux, &maps->arrival, &maps->duration, &maps->start};
+    for (size_t k = 0; k < ARRAYS; k++) arrays[k] = all[k];
+}
+
 void sb_offshore_maps_destroy(sb_offshore_maps *maps)
 {
     if (!maps) return;
-    float *const arrays[] = {maps->depth, maps->speed, maps->flux, maps->arrival, maps->duration, maps->start};
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) sb_free(arrays[k]);
+    float **arrays[ARRAYS];
+    find_arrays(maps, arrays);
+    for (size_t k = 0; k < ARRAYS; k++) sb_free(*arrays[k]);
     sb_free(maps);
 }
 
@@ -68,8 +77,9 @@ sb_status sb_offshore_maps_create(const sb_offshore *offshore, double threshold,
     sb_offshore_maps *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "maps");
     *made = (sb_offshore_maps){.columns = v.columns, .rows = v.rows, .threshold = (float)threshold};
-    float **arrays[] = {&made->depth, &made->speed, &made->flux, &made->arrival, &made->duration, &made->start};
-    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
+    float **arrays[ARRAYS];
+    find_arrays(made, arrays);
+    for (size_t k = 0; k < ARRAYS; k++) {
         *arrays[k] = sb_alloc(v.columns * v.rows, sizeof(float));
         if (!*arrays[k]) {
             sb_offshore_maps_destroy(made);
@@ -93,4 +103,33 @@ sb_offshore_map_view sb_offshore_maps_read(const sb_offshore_maps *maps)
                                   .flux = maps->flux,
                                   .arrival = maps->arrival,
                                   .duration = maps->duration};
+}
+
+void sb_offshore_maps_save(const sb_offshore_maps *maps, sb_archive_out *out)
+{
+    sb_offshore_maps copy = *maps;
+    float **arrays[ARRAYS];
+    find_arrays(&copy, arrays);
+    for (size_t k = 0; k < ARRAYS; k++) sb_put_list(out, *arrays[k], maps->columns * maps->rows, sizeof(float));
+}
+
+void sb_offshore_maps_load(sb_offshore_maps *maps, sb_archive_in *in)
+{
+    const size_t cells = maps->columns * maps->rows;
+    float **arrays[ARRAYS];
+    find_arrays(maps, arrays);
+    for (size_t k = 0; k < ARRAYS; k++) {
+        sb_take_list(in, *arrays[k], cells, sizeof(float));
+        for (size_t i = 0; i < cells; i++)
+            if (!isfinite((*arrays[k])[i])) {
+                sb_archive_refuse(in, "a map of the depth-averaged water has the value %g, expected finite ones",
+                                  (double)(*arrays[k])[i]);
+                return;
+            }
+    }
+}
+
+size_t sb_offshore_maps_bytes(size_t cells)
+{
+    return ARRAYS * cells * sizeof(float);
 }

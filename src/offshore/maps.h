@@ -2,6 +2,7 @@
 #ifndef SB_OFFSHORE_MAPS_H
 #define SB_OFFSHORE_MAPS_H
 
+#include "base/archive.h"
 #include "offshore/offshore.h"
 
 typedef struct sb_offshore_maps sb_offshore_maps;
@@ -21,5 +22,12 @@ typedef struct sb_offshore_map_view {
     const float *depth, *speed, *flux, *arrival, *duration; /* m, m/s, m^3/s^2, s, s */
 } sb_offshore_map_view;
 sb_offshore_map_view sb_offshore_maps_read(const sb_offshore_maps *maps);
+
+/* Writes the maps into the open section; reads them into maps of the same grid. Impossible values are refused. */
+void sb_offshore_maps_save(const sb_offshore_maps *maps, sb_archive_out *out);
+void sb_offshore_maps_load(sb_offshore_maps *maps, sb_archive_in *in);
+
+/* Heap bytes that the maps of so many cells need. */
+size_t sb_offshore_maps_bytes(size_t cells);
 
 #endif

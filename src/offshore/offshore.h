@@ -19,13 +19,17 @@ typedef enum sb_offshore_side {
     SB_OFFSHORE_WALL,
     SB_OFFSHORE_OPEN,     /* long waves leave; beyond the side the water rests at options.level */
     SB_OFFSHORE_PERIODIC, /* pairs along x or y */
-    SB_OFFSHORE_GIVEN     /* as open, but the water beyond is what options.given returns */
+    SB_OFFSHORE_GIVEN,    /* as open, but the water beyond is what options.given returns */
+    SB_OFFSHORE_PADDLE    /* moves water as options.paddle does; a wall when it rests */
 } sb_offshore_side;
 
 /* Surface above the datum of the bed, m, and depth-averaged velocity, m/s. */
 typedef struct sb_offshore_water {
     double surface, u, v;
 } sb_offshore_water;
+
+/* A law of motion for one side: offshore/paddle.h. */
+typedef struct sb_offshore_paddle sb_offshore_paddle;
 
 /* The water beyond a given side at that time, s, and place, m. Called from one thread. */
 typedef sb_offshore_water sb_offshore_given(void *context, double time, double x, double y);
@@ -40,7 +44,8 @@ typedef struct sb_offshore_options {
     sb_offshore_side side[SB_OFFSHORE_SIDES]; /* those along y have no effect with one row */
     sb_offshore_given *given;                 /* NULL: no side is given */
     void *given_context;
-    bool dispersion; /* Serre-Green-Naghdi instead of shallow water */
+    sb_offshore_paddle *paddle; /* NULL: no side is a paddle; a model that is created takes it over */
+    bool dispersion;            /* Serre-Green-Naghdi instead of shallow water */
 } sb_offshore_options;
 
 /* Copies bed and depth: columns x rows values, m, [row * columns + column], row 0 at y. hu and hv (m^2/s) may be NULL:

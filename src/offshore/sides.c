@@ -1,4 +1,5 @@
 /* The cells beyond the sides. */
+#include "offshore/paddle.h"
 #include "offshore/state.h"
 
 #include <math.h>
@@ -65,12 +66,33 @@ static void fill_passing(const sb_offshore *offshore, double *h, double *across,
     }
 }
 
+/* Fills the two cells beyond a side that moves water: a mirror that moves with it, and the slope of the wave that it
+   makes. */
+static void fill_pushing(const sb_offshore *offshore, double *h, double *across, double *along, const edge *e)
+{
+    const sb_offshore_push *push = &offshore->push;
+    const double slope = sb_offshore_push_slope(push, h[e->within[0]]);
+    for (int k = 0; k < SB_OFFSHORE_BEYOND; k++) {
+        const size_t from = e->within[k], to = e->beyond[k];
+        h[to] = fmax(h[from] - (2 * k + 1) * offshore->options.cell * slope, 0);
+        across[to] = -across[from];
+        along[to] = along[from];
+        if (push->velocity == 0 && push->rate == 0) continue;
+        across[to] = -h[to] * (2 * e->outward * push->velocity + desingularised(offshore, across[from], h[from]));
+        along[to] = h[to] * desingularised(offshore, along[from], h[from]);
+    }
+}
+
 static void fill(const sb_offshore *offshore, double *h, double *across, double *along, const edge *e, int side,
                  double time)
 {
     const sb_offshore_side kind = offshore->options.side[side];
     if (kind == SB_OFFSHORE_OPEN || kind == SB_OFFSHORE_GIVEN) {
         fill_passing(offshore, h, across, along, e, kind == SB_OFFSHORE_GIVEN, time);
+        return;
+    }
+    if (kind == SB_OFFSHORE_PADDLE) {
+        fill_pushing(offshore, h, across, along, e);
         return;
     }
     const bool wall = kind == SB_OFFSHORE_WALL;

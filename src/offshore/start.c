@@ -1,6 +1,7 @@
 #include "offshore/start.h"
 
 #include "base/memory.h"
+#include "offshore/paddle.h"
 #include "physics/wave_theory.h"
 
 #include <math.h>
@@ -32,6 +33,8 @@ static sb_offshore_side side_of(const sb_scene *scene, int side)
         return SB_OFFSHORE_PERIODIC;
     case SB_GRID_SIDE_WALL:
         return SB_OFFSHORE_WALL;
+    case SB_GRID_SIDE_PADDLE:
+        return SB_OFFSHORE_PADDLE;
     case SB_GRID_SIDE_DOMAIN:
         break;
     }
@@ -104,9 +107,47 @@ sb_status sb_offshore_start_water(const sb_scene *scene, sb_offshore_start *star
                    o->level);
 }
 
+/* The still depth at the deepest cell of a side. */
+static double depth_at(const sb_scene *scene, const sb_offshore_start *start, int side)
+{
+    const bool along_y = side < SB_OFFSHORE_Y_MIN;
+    const size_t count = along_y ? start->rows : start->columns, across = along_y ? start->columns : start->rows;
+    const size_t line = side % 2 ? across - 1 : 0;
+    double depth = 0;
+    for (size_t k = 0; k < count; k++) {
+        const size_t at = along_y ? k * start->columns + line : line * start->columns + k;
+        depth = fmax(depth, scene->offshore.level - start->bed[at]);
+    }
+    return depth;
+}
+
+static sb_status create_paddle(const sb_scene *scene, const sb_offshore_start *start, sb_offshore_options *options,
+                               sb_error *error)
+{
+    const sb_offshore_settings *o = &scene->offshore;
+    const double place[] = {o->x_min, o->x_max, o->y_min, o->y_max};
+    for (int side = 0; side < SB_OFFSHORE_SIDES; side++) {
+        if (options->side[side] != SB_OFFSHORE_PADDLE) continue;
+        const sb_offshore_paddle_options paddle = {.law = o->paddle.law,
+                                                   .ahead = (side % 2 ? -1 : 1) * (place[side] - o->paddle_at),
+                                                   .depth = depth_at(scene, start, side),
+                                                   .late = sb_scene_nested(scene) ? scene->given.start : 0};
+        if (!(paddle.depth > 0))
+            return sb_fail(error, SB_BAD_INPUT,
+                           "offshore.sides.%s: paddle, but there is no water, expected water at the side",
+                           sb_side_names[side]);
+        return sb_offshore_paddle_create(&paddle, &options->paddle, error);
+    }
+    return SB_OK;
+}
+
 sb_status sb_offshore_begin(const sb_scene *scene, const sb_offshore_start *start, sb_offshore **offshore,
                             sb_error *error)
 {
-    const sb_offshore_options options = sb_offshore_options_of(scene, start->columns, start->rows);
-    return sb_offshore_create(&options, start->bed, start->depth, start->hu, NULL, offshore, error);
+    sb_offshore_options options = sb_offshore_options_of(scene, start->columns, start->rows);
+    sb_status status = scene->offshore.has_paddle ? create_paddle(scene, start, &options, error) : SB_OK;
+    if (status == SB_OK)
+        status = sb_offshore_create(&options, start->bed, start->depth, start->hu, NULL, offshore, error);
+    if (status != SB_OK) sb_offshore_paddle_destroy(options.paddle);
+    return status;
 }

@@ -15,6 +15,13 @@ typedef struct sb_offshore_level {
     double *h, *hu, *hv;
 } sb_offshore_level;
 
+/* What a paddle does at its side. */
+typedef struct sb_offshore_push {
+    double velocity, rate; /* m/s inwards; m/s^2, at the place */
+    double phase;          /* m/s, speed of the phase of its wave */
+    bool form;             /* this wave keeps its form */
+} sb_offshore_push;
+
 /* Arrays have `stride` x `lines` values. Cell (0, 0) has index `origin`; cells beyond the sides surround it. With one
    row there are none beyond it along y. */
 struct sb_offshore {
@@ -22,6 +29,7 @@ struct sb_offshore {
     size_t stride, lines, origin, cells; /* cells: stride x lines */
     const sb_offshore_jump *jumps;       /* of the next step; borrowed */
     size_t jump_count;
+    sb_offshore_push push;    /* at the time of the level whose fluxes are next */
     double time, before_time; /* s, of now and of before */
     double longest;           /* s, longest stable time step so far; 0: none */
     uint64_t steps;

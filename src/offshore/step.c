@@ -1,6 +1,7 @@
 /* Heun's time step: two stages, then friction. */
 #include "offshore/dispersion.h"
 #include "offshore/jump.h"
+#include "offshore/paddle.h"
 #include "offshore/state.h"
 
 #include <math.h>
@@ -12,6 +13,7 @@ static const double COURANT = 0.45;
 /* Prepares the fluxes of a level. */
 static void prepare(sb_offshore *offshore, const sb_offshore_level *level, double time)
 {
+    if (offshore->options.paddle) offshore->push = sb_offshore_paddle_at(offshore->options.paddle, time);
     sb_offshore_fill_sides(offshore, level, time);
     sb_offshore_find_primitives(offshore, level);
 }

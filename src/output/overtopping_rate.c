@@ -20,7 +20,8 @@ bool sb_overtopping_wanted(const sb_scene *scene)
 static sb_overtopping_rate rate_at(const sb_scene *scene, const sb_flow_plane *plane, const sb_series *series)
 {
     const sb_eurotop_settings *e = &plane->eurotop;
-    const double nan = (double)NAN, g = scene->fluid.gravity, width = hypot(plane->bx - plane->ax, plane->by - plane->ay);
+    const double nan = (double)NAN, g = scene->fluid.gravity,
+                 width = hypot(plane->bx - plane->ax, plane->by - plane->ay);
     sb_overtopping_rate found = {nan, nan, nan, nan, nan};
     double first = 0, last = 0;
     if (!(e->height > 0)) return found;

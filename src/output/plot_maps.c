@@ -6,12 +6,12 @@
 
 #include <unistd.h>
 
-static int draw_map(const char *program, const char *directory, const sb_map_row *row, const sb_scene *scene,
-                    sb_runlog *log)
+static int draw_map(const char *program, const char *directory, const sb_map_row *row, const char *name,
+                    const sb_scene *scene, sb_runlog *log)
 {
     char grid[SB_PATH_MAX], script[SB_PATH_MAX], title[512];
     sb_error error = {0};
-    snprintf(grid, sizeof grid, "%.4000s/maps/%s.asc", directory, row->name);
+    snprintf(grid, sizeof grid, "%.4000s/maps/%s.asc", directory, name);
     if (access(grid, R_OK) != 0) return 0;
     double columns, rows, x, y, cell;
     FILE *in = NULL;
@@ -19,7 +19,7 @@ static int draw_map(const char *program, const char *directory, const sb_map_row
         sb_input_open(grid, &in, NULL) == SB_OK &&
         fscanf(in, "ncols %lf nrows %lf xllcorner %lf yllcorner %lf cellsize %lf", &columns, &rows, &x, &y, &cell) == 5;
     if (in) fclose(in);
-    FILE *out = read && rows > 1 ? sb_plot_open(directory, row->name, "gp", script, &error) : NULL;
+    FILE *out = read && rows > 1 ? sb_plot_open(directory, name, "gp", script, &error) : NULL;
     if (!out) return 0;
     snprintf(title, sizeof title, "%.300s: %s", scene->title ? scene->title : "", row->label);
     fprintf(out,
@@ -33,20 +33,22 @@ static int draw_map(const char *program, const char *directory, const sb_map_row
     fprintf(out,
             "\nplot 'maps/%s.asc' skip 6 matrix using (%.12g+($1+0.5)*%.12g):"
             "(%.12g-($2+0.5)*%.12g):($3==-9999?NaN:$3) with image\n",
-            row->name, x, cell, y + rows * cell, cell);
-    sb_status status = fclose(out) == 0 ? sb_plot_draw(program, directory, "maps", row->name, &error)
+            name, x, cell, y + rows * cell, cell);
+    sb_status status = fclose(out) == 0 ? sb_plot_draw(program, directory, "maps", name, &error)
                                         : sb_fail(&error, SB_FAILED, "cannot write the gnuplot script");
     unlink(script);
     if (status != SB_OK)
-        sb_runlog_warning(log, "maps/%s.png: %s", row->name, error.text);
+        sb_runlog_warning(log, "maps/%s.png: %s", name, error.text);
     else
-        sb_runlog_event(log, "plot", "maps/%s.png", row->name);
+        sb_runlog_event(log, "plot", "maps/%s.png", name);
     return status == SB_OK;
 }
 
 int sb_plot_maps(const char *program, const char *directory, const sb_scene *scene, sb_runlog *log)
 {
     int drawn = 0;
-    for (const sb_map_row *row = sb_map_rows; row->name; row++) drawn += draw_map(program, directory, row, scene, log);
+    for (const sb_map_row *row = sb_map_rows; row->name; row++)
+        drawn += draw_map(program, directory, row, row->name, scene, log) +
+                 draw_map(program, directory, row, row->grid_name, scene, log);
     return drawn;
 }

@@ -237,6 +237,7 @@ static void put_all(sb_json *json, const sb_summary *s)
     sb_summary_put_energy(json, "energy_start", &s->first);
     sb_summary_put_energy(json, "energy_end", &s->last);
     if (s->work) sb_summary_put_work(json, s->work);
+    if (s->grid) sb_grid_beside_put(json, s->grid);
     put_stages(json, &s->spent);
     sb_json_close(json);
 }

@@ -7,6 +7,7 @@
 #include "frame/records.h"
 #include "frame/stage_time.h"
 #include "geometry/model/model.h"
+#include "output/grid_summary.h"
 #include "output/json.h"
 #include "output/overtopping_rate.h"
 #include "output/wave_table.h"
@@ -50,6 +51,7 @@ typedef struct sb_summary {
     const sb_absorption *absorptions; /* one per body of the model; NULL: none */
     const sb_gauge_waves *waves;      /* one per gauge; NULL: none */
     const sb_overtopping_rate *rates; /* one per plane; NULL: none */
+    const sb_grid_facts_beside *grid; /* the depth-averaged water that is the sea; NULL: none */
     size_t reflection_count;
     const sb_reflection_record *reflections;   /* since the start of each set */
     sb_energy first, last;                     /* energies at the start and at the end */

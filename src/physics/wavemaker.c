@@ -102,6 +102,15 @@ double sb_paddle_displacement(const sb_paddle *paddle, double t)
     return s < 1 ? paddle->stroke_end * (1 - s * s * (3 - 2 * s)) : 0;
 }
 
+double sb_paddle_celerity(const sb_wavemaker_parameters *parameters, const sb_paddle *paddle)
+{
+    if (parameters->kind->needs == (SB_WM_HEIGHT | SB_WM_DEPTH)) /* solitary waves */
+        return sqrt(parameters->gravity * (parameters->depth + parameters->height));
+    if (!(parameters->kind->needs & SB_WM_THEORY)) return 0;
+    const sb_wave_facts *facts = parameters->kind->facts(paddle->state);
+    return facts->length / facts->period;
+}
+
 void sb_paddle_destroy(sb_paddle *paddle)
 {
     if (paddle->kind) paddle->kind->destroy(paddle->state);

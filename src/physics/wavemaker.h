@@ -116,6 +116,9 @@ sb_status sb_paddle_create(const sb_wavemaker_parameters *parameters, sb_paddle 
 double sb_paddle_displacement(const sb_paddle *paddle, double t);
 void sb_paddle_destroy(sb_paddle *paddle);
 
+/* Speed of the waves that the paddle makes if they keep their form, m/s; 0: they do not, or the law does not tell. */
+double sb_paddle_celerity(const sb_wavemaker_parameters *parameters, const sb_paddle *paddle);
+
 /* Fits the filter of an absorbing paddle to its waves, for a surface that is measured `distance` ahead of its face, and
    sets the place of its law. SB_BAD_INPUT if its waves are too short for that distance. */
 sb_status sb_paddle_fit_absorption(const sb_wavemaker_parameters *parameters, sb_paddle *paddle, double distance,

@@ -49,10 +49,23 @@ static sb_status make_framebuffer(sb_renderer *r, sb_error *error)
     return sb_framebuffer_check("picture", error);
 }
 
+/* Widens the bounds by the water of a grid that frames contain beside that of the domain. */
+static void add_grid(sb_renderer *r, const sb_scene *scene)
+{
+    const sb_offshore_settings *o = &scene->offshore;
+    if (!sb_scene_nested(scene)) return;
+    const double x_min = fmax(o->x_min, r->min.x - o->drawn), x_max = fmin(o->x_max, r->max.x + o->drawn);
+    const double y_min = fmax(o->y_min, r->min.y - o->drawn), y_max = fmin(o->y_max, r->max.y + o->drawn);
+    const bool flat = scene->dimensions == 2;
+    r->min = sb_vec(fmin(r->min.x, x_min), flat ? r->min.y : fmin(r->min.y, y_min), r->min.z);
+    r->max = sb_vec(fmax(r->max.x, x_max), flat ? r->max.y : fmax(r->max.y, y_max), r->max.z);
+}
+
 static void find_bounds(sb_renderer *r, const sb_model *model)
 {
     r->min = model->min;
     r->max = model->max;
+    add_grid(r, r->scene);
     for (size_t i = 0; i < model->body_count; i++)
         for (size_t v = 0; v < model->bodies[i].mesh.vertex_count; v++) {
             r->min = sb_min(r->min, model->bodies[i].mesh.vertices[v]);

@@ -30,12 +30,12 @@ static void list_marks(const sb_report_page *page, marks *all)
 }
 
 /* Returns whether there is such a map. */
-static bool put_row(FILE *out, const sb_report_page *page, const sb_map_row *row, const marks *all)
+static bool put_row(FILE *out, const sb_report_page *page, const sb_map_row *row, const char *file, const marks *all)
 {
     char path[SB_PATH_MAX], name[64];
     sb_grid grid = {0};
     sb_error error = {0};
-    snprintf(name, sizeof name, "maps/%s.asc", row->name);
+    snprintf(name, sizeof name, "maps/%s.asc", file);
     errno = 0;
     sb_status status = sb_path_join(path, page->run->directory, name, &error);
     if (status == SB_OK) status = sb_grid_read(path, &grid, &error);
@@ -52,14 +52,26 @@ static bool put_row(FILE *out, const sb_report_page *page, const sb_map_row *row
     return true;
 }
 
+/* The maps of the depth-averaged water beside the particles. Returns their number. */
+static size_t put_grid_rows(FILE *out, const sb_report_page *page, const marks *all)
+{
+    size_t count = 0;
+    if (!page->run->has_scene || !sb_scene_nested(&page->run->scene)) return 0;
+    fputs("<h3>Depth-averaged water beside the particles</h3>\n<div class=\"maps\">", out);
+    for (const sb_map_row *row = sb_map_rows; row->name; row++) count += put_row(out, page, row, row->grid_name, all);
+    fputs("</div>\n", out);
+    return count;
+}
+
 void sb_section_maps(FILE *out, const sb_report_page *page)
 {
     size_t count = 0;
     marks all = {0};
     list_marks(page, &all);
     fputs("<section id=\"maps\"><h2>Inundation</h2>\n<div class=\"maps\">", out);
-    for (const sb_map_row *row = sb_map_rows; row->name; row++) count += put_row(out, page, row, &all);
+    for (const sb_map_row *row = sb_map_rows; row->name; row++) count += put_row(out, page, row, row->name, &all);
     fputs("</div>\n", out);
+    count += put_grid_rows(out, page, &all);
     if (count > 0)
         fputs("<p class=\"note\">x and y in m. Grey cells never were wet. Squares are bodies, circles are gauges.</p>",
               out);

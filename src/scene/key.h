@@ -83,6 +83,7 @@ struct sb_table {
 
 /* The table of the whole scene, and those of its blocks that are in other files. */
 extern const sb_table sb_scene_table;
+extern const sb_table sb_grid_paddle_table; /* the law alone of a wave maker */
 extern const sb_table sb_numerics_table, sb_offshore_table, sb_wave_table, sb_water_table, sb_given_table,
     sb_body_table, sb_wavemaker_table, sb_sponge_table, sb_foam_table, sb_reflection_table;
 extern const sb_table sb_measure_table, sb_render_table, sb_stream_table, sb_control_table, sb_output_table;

@@ -303,9 +303,12 @@ typedef struct sb_foam_settings {
     double amount;   /* factor on the number of particles that water emits */
 } sb_foam_settings;
 
+/* Whose water a gauge reads. Without particles all read the grid. */
+typedef enum sb_gauge_water { SB_GAUGE_PARTICLES, SB_GAUGE_GRID } sb_gauge_water;
 typedef struct sb_gauge {
     char name[SB_NAME_MAX];
     double x, y;
+    sb_gauge_water water;
 } sb_gauge;
 typedef struct sb_probe {
     char name[SB_NAME_MAX];
@@ -392,7 +395,8 @@ typedef enum sb_grid_side {
     SB_GRID_SIDE_DOMAIN, /* that of the domain; of a grid that ends elsewhere: open */
     SB_GRID_SIDE_WALL,
     SB_GRID_SIDE_OPEN,
-    SB_GRID_SIDE_PERIODIC
+    SB_GRID_SIDE_PERIODIC,
+    SB_GRID_SIDE_PADDLE
 } sb_grid_side;
 typedef enum sb_coupling {
     SB_COUPLING_ONE_WAY, /* the grid gives water to the particles */
@@ -410,10 +414,15 @@ typedef struct sb_offshore_settings {
     double manning;                    /* s/m^(1/3) */
     bool dispersion;
     double threshold; /* m, depth or rise that counts in the maps */
+    bool maps;
+    double drawn; /* m, distance beyond the domain to which pictures show the grid's water */
     bool has_uplift;
     sb_offshore_grid uplift; /* m, added to the still surface at the start */
     sb_initial_wave wave;
     sb_grid_side side[4]; /* from x_min to y_max */
+    bool has_paddle;
+    sb_wavemaker_use paddle; /* the law of the sides of kind paddle; name and body are empty */
+    double paddle_at;        /* m, x or y of its face before its motion */
     sb_coupling coupling;
 } sb_offshore_settings;
 

@@ -12,27 +12,62 @@ static sb_status refuse_outside(sb_reader *reader, const sb_yaml *map, const cha
     return sb_reader_fail(reader, map, key, "is outside of the domain, expected inside");
 }
 
+static const char *const gauge_water_names[] = {"particles", "grid", NULL};
+
+enum { CHOSEN = 1 };
+
+/* The key is there, or was found to be needed. */
+static unsigned gauge_variant(const void *item, const sb_yaml *map)
+{
+    const sb_gauge *gauge = item;
+    return (map ? sb_yaml_child(map, "water") != NULL : gauge->water == SB_GAUGE_GRID) ? CHOSEN : 0;
+}
+
 /* clang-format off */
 static const sb_key gauge_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_gauge, name), .flags = SB_KEY_REQUIRED,
      .doc = "Unique name of the gauge."},
     {.name = "x", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_gauge, x), .unit = "m", SB_KEY_ANY,
-     .flags = SB_KEY_REQUIRED, .doc = "Position, inside the domain."},
+     .flags = SB_KEY_REQUIRED, .doc = "Position, inside the domain, or of the grid that is its sea."},
     {.name = "y", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_gauge, y), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED_3D, .fallback = "0", .doc = "Position; 0 in 2D."},
+    {.name = "water", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_gauge, water), .words = gauge_water_names,
+     .applies = CHOSEN, .only = "particles and a grid", .derived = "particles within the domain, grid outside of it",
+     .doc = "Whose water the gauge reads, with `sea.source: offshore`."},
 };
 /* clang-format on */
 
-static sb_status finish_gauge(sb_reader *reader, const sb_yaml *map, void *item)
+/* The key of the coordinate that is outside of the domain, or of the grid; NULL: none. */
+static const char *gauge_outside(const sb_scene *scene, const sb_gauge *gauge, bool grid)
 {
-    const sb_gauge *gauge = item;
-    const sb_domain *domain = &reader->scene->domain;
-    if (!inside(gauge->x, domain->min.x, domain->max.x)) return refuse_outside(reader, map, "x");
-    if (!inside(gauge->y, domain->min.y, domain->max.y)) return refuse_outside(reader, map, "y");
-    return SB_OK;
+    const sb_domain *d = &scene->domain;
+    const sb_offshore_settings *o = &scene->offshore;
+    const bool x = grid ? inside(gauge->x, o->x_min, o->x_max) : inside(gauge->x, d->min.x, d->max.x);
+    const bool y =
+        grid ? scene->dimensions == 2 || inside(gauge->y, o->y_min, o->y_max) : inside(gauge->y, d->min.y, d->max.y);
+    return !x ? "x" : !y ? "y" : NULL;
 }
 
-static const sb_table gauge_table = {SB_KEY_ROWS(gauge_keys), .size = sizeof(sb_gauge), .finish = finish_gauge};
+static sb_status finish_gauge(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    sb_gauge *gauge = item;
+    const sb_scene *scene = reader->scene;
+    const bool chosen = sb_yaml_child(map, "water") != NULL;
+    const char *of_domain = gauge_outside(scene, gauge, false), *of_grid = gauge_outside(scene, gauge, true);
+    if (!sb_scene_nested(scene)) {
+        if (chosen)
+            return sb_reader_fail(reader, map, "water",
+                                  "needs particles and a grid, expected a scene with sea: {source: offshore}");
+        return of_domain ? refuse_outside(reader, map, of_domain) : SB_OK;
+    }
+    if (!chosen) gauge->water = of_domain ? SB_GAUGE_GRID : SB_GAUGE_PARTICLES;
+    if (gauge->water == SB_GAUGE_GRID && of_grid)
+        return sb_reader_fail(reader, map, of_grid, "is outside of the domain and of the grid, expected inside");
+    return gauge->water == SB_GAUGE_PARTICLES && of_domain ? refuse_outside(reader, map, of_domain) : SB_OK;
+}
+
+static const sb_table gauge_table = {SB_KEY_ROWS(gauge_keys), .size = sizeof(sb_gauge), .variant = gauge_variant,
+                                     .finish = finish_gauge};
 
 /* clang-format off */
 static const sb_key probe_keys[] = {

@@ -3,7 +3,7 @@
 #include <math.h>
 
 static const char *const positive_names[] = {"up", "down", NULL};
-static const char *const side_names[] = {"domain", "wall", "open", "periodic", NULL};
+static const char *const side_names[] = {"domain", "wall", "open", "periodic", "paddle", NULL};
 static const char *const coupling_names[] = {"one-way", "two-way", NULL};
 
 #define GRID_SIDE(index, side)                                                                                         \
@@ -52,12 +52,14 @@ static const sb_key grid_keys[] = {GRID_KEYS};
 
 static const sb_table grid_table = {SB_KEY_ROWS(grid_keys), .size = sizeof(sb_offshore_grid)};
 
-enum { UPLIFT = 1 };
+enum { UPLIFT = 1, PADDLE = 2 };
 
 static unsigned variant(const void *item, const sb_yaml *map)
 {
-    const bool uplift = map ? sb_yaml_child(map, "uplift") != NULL : ((const sb_offshore_settings *)item)->has_uplift;
-    return uplift ? UPLIFT : 0;
+    const sb_offshore_settings *o = item;
+    const bool uplift = map ? sb_yaml_child(map, "uplift") != NULL : o->has_uplift;
+    const bool paddle = map ? sb_yaml_child(map, "paddle") != NULL : o->has_paddle;
+    return (uplift ? UPLIFT : 0) | (paddle ? PADDLE : 0);
 }
 
 /* clang-format off */
@@ -84,6 +86,11 @@ static const sb_key keys[] = {
     {.name = "threshold", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_offshore_settings, threshold), .unit = "m",
      SB_KEY_POSITIVE, .fallback = "0.05",
      .doc = "Rise that counts as arrival in the maps, and depth from which speed and inundation count."},
+    {.name = "maps", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_offshore_settings, maps), .fallback = "true",
+     .doc = "Maps of the greatest depth, speed and momentum flux, of arrival and of inundation, one value per cell."},
+    {.name = "drawn", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_offshore_settings, drawn), .unit = "m", .min = 0,
+     .max = HUGE_VAL, .flags = SB_KEY_FREE, .derived = "half of the domain's larger horizontal extent",
+     .doc = "Beside particles: distance beyond the domain to which pictures show the grid's water; 0: not at all."},
     {.name = "uplift", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_offshore_settings, uplift), .table = &grid_table,
      .applies = UPLIFT, .only = "an uplift", .derived = "none",
      .doc = "Grid of heights that are added to the still surface at the start; 0 where it has none."},
@@ -91,6 +98,13 @@ static const sb_key keys[] = {
      .doc = "Wave at t = 0 by wave theory."},
     {.name = "sides", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_offshore_settings, side), .table = &side_table,
      .doc = "Kinds of the grid's sides."},
+    {.name = "paddle", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_offshore_settings, paddle), .table = &sb_grid_paddle_table,
+     .applies = PADDLE, .only = "a side of kind paddle", .derived = "none",
+     .doc = "Law by which the side of kind `paddle` moves water inwards; keys as those of a [wave maker](#wavemakers)."},
+    {.name = "paddle_at", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_offshore_settings, paddle_at), .unit = "m", SB_KEY_ANY,
+     .applies = PADDLE, .only = "a side of kind paddle", .derived = "that of the side",
+     .doc = "Coordinate of the paddle's face before its motion. The side of the grid stands still: put it where the "
+            "motion ends, and state here where it begins."},
     {.name = "coupling", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_offshore_settings, coupling), .words = coupling_names,
      .fallback = "one-way",
      .doc = "With `sea.source: offshore`: `one-way` gives the grid's water to the particles; `two-way` also gives the "
@@ -116,12 +130,41 @@ static sb_status check_extent(sb_reader *reader, const sb_yaml *map, char axis, 
     return SB_OK;
 }
 
+/* The side of kind paddle; SB_SIDES: none. */
+static int paddle_side(const sb_offshore_settings *o)
+{
+    int side = 0;
+    while (side < 4 && o->side[side] != SB_GRID_SIDE_PADDLE) side++;
+    return side < 4 ? side : SB_SIDES;
+}
+
+static sb_status finish_paddle(sb_reader *reader, const sb_yaml *map, sb_offshore_settings *o)
+{
+    const int side = paddle_side(o);
+    const double at[] = {o->x_min, o->x_max, o->y_min, o->y_max};
+    if (side == SB_SIDES && o->has_paddle)
+        return sb_reader_fail(reader, map, "paddle", "no side is moved by it, expected sides: {x_min: paddle}");
+    if (side == SB_SIDES) return SB_OK;
+    if (!o->has_paddle)
+        return sb_reader_fail(reader, map, "sides",
+                              "%s: paddle, but there is no block offshore.paddle, expected its law, such as paddle: "
+                              "{kind: goring-rayleigh, height: 1, depth: 10}",
+                              sb_side_names[side]);
+    for (int other = side + 1; other < 4; other++)
+        if (o->side[other] == SB_GRID_SIDE_PADDLE)
+            return sb_reader_fail(reader, map, "sides", "%s and %s are paddles, expected one", sb_side_names[side],
+                                  sb_side_names[other]);
+    if (!sb_yaml_child(map, "paddle_at")) o->paddle_at = at[side];
+    return SB_OK;
+}
+
 static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_offshore_settings *o = item;
     const sb_domain *domain = &reader->scene->domain;
     o->present = true;
     o->has_uplift = variant(item, map) & UPLIFT;
+    o->has_paddle = variant(item, map) & PADDLE;
     if (!(reader->scene->resolution > 0)) reader->scene->resolution = o->cell; /* there are no particles */
     if (!sb_yaml_child(map, "min")) {
         o->x_min = domain->min.x;
@@ -134,10 +177,12 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     if (o->wave.kind == SB_INITIAL_REGULAR || o->wave.kind == SB_INITIAL_COMPONENTS)
         return sb_reader_fail(reader, map, "wave",
                               "regular waves and components are for particles, expected solitary or standing");
+    if (!sb_yaml_child(map, "drawn"))
+        o->drawn = 0.5 * fmax(domain->max.x - domain->min.x, domain->max.y - domain->min.y);
     sb_status status = check_extent(reader, map, 'x', o->x_max - o->x_min, o->cell);
     if (status == SB_OK && reader->scene->dimensions == 3)
         status = check_extent(reader, map, 'y', o->y_max - o->y_min, o->cell);
-    return status;
+    return status == SB_OK ? finish_paddle(reader, map, o) : status;
 }
 
 const sb_table sb_offshore_table = {SB_KEY_ROWS(keys), .size = sizeof(sb_offshore_settings), .variant = variant,

@@ -41,12 +41,12 @@ static const sb_key keys[] = {
      .flags = SB_KEY_REQUIRED, .doc = "Unique name of the wave maker."},
     {.name = "body", .type = SB_KEY_NAME, SB_KEY_AT(sb_wavemaker_use, body),
      .flags = SB_KEY_REQUIRED, .doc = "Name of the body that the wave maker moves."},
-    {.name = "kind", .type = SB_KEY_LAW, SB_KEY_AT(sb_wavemaker_use, law.kind),
-     .flags = SB_KEY_REQUIRED,
-     .doc = "Law of the motion; `shorebreak list wavemakers` describes the laws."},
     {.name = "direction", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_wavemaker_use, direction),
      SB_KEY_ANY, .flags = SB_KEY_UNIT, .fallback = "[1, 0, 0]",
      .doc = "Direction of the motion, of any length."},
+    {.name = "kind", .type = SB_KEY_LAW, SB_KEY_AT(sb_wavemaker_use, law.kind),
+     .flags = SB_KEY_REQUIRED,
+     .doc = "Law of the motion; `shorebreak list wavemakers` describes the laws."},
     {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.start), .unit = "s",
      SB_KEY_NOT_NEGATIVE, .words = start_names, .fallback = "0",
      .doc = "Time at which the motion begins; `command`: when the command `trigger` is given."},
@@ -133,19 +133,13 @@ static sb_status check_direction(sb_reader *reader, const sb_yaml *map, const sb
     return SB_OK;
 }
 
-static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
+/* Rows before those of the law. */
+enum { PLACE_ROWS = 3 };
+
+/* Checks the law by making a paddle. */
+static sb_status finish_law(sb_reader *reader, const sb_yaml *map, sb_wavemaker_use *use)
 {
-    sb_wavemaker_use *use = item;
-    const sb_scene *scene = reader->scene;
-    if (!sb_scene_may_have_body(scene, use->body))
-        return sb_reader_fail(reader, map, "body", "no body is named %s, expected the name of a body", use->body);
-    for (const sb_wavemaker_use *other = scene->wavemakers; other < use; other++)
-        if (strcmp(other->body, use->body) == 0)
-            return sb_reader_fail(reader, map, "body", "%s is already moved by %s, expected one wave maker per body",
-                                  use->body, other->name);
-    sb_status status = check_direction(reader, map, use);
-    if (status != SB_OK) return status;
-    use->law.gravity = scene->fluid.gravity;
+    use->law.gravity = reader->scene->fluid.gravity;
     if (use->law.kind->needs & SB_WM_TRAIN) {
         if (!sb_yaml_child(map, "ramp")) use->law.ramp = -1;
         if (!sb_yaml_child(map, "absorb")) use->law.absorb = strcmp(use->law.kind->name, "absorber") == 0;
@@ -156,9 +150,10 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     sb_paddle paddle = {0};
     sb_error why = {0};
     sb_absorbing_filter filter;
-    status = sb_paddle_create(&use->law, &paddle, &why);
+    sb_status status = sb_paddle_create(&use->law, &paddle, &why);
     if (status == SB_OK && use->law.absorb) {
-        status = sb_paddle_fit_absorption(&use->law, &paddle, SB_ABSORB_DISTANCE * scene->resolution, &filter, &why);
+        status =
+            sb_paddle_fit_absorption(&use->law, &paddle, SB_ABSORB_DISTANCE * reader->scene->resolution, &filter, &why);
         if (status != SB_OK) sb_paddle_destroy(&paddle);
     }
     if (status == SB_OK) {
@@ -170,5 +165,40 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     return sb_fail(reader->error, status, "%s", why.text);
 }
 
+static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    sb_wavemaker_use *use = item;
+    const sb_scene *scene = reader->scene;
+    if (!sb_scene_may_have_body(scene, use->body))
+        return sb_reader_fail(reader, map, "body", "no body is named %s, expected the name of a body", use->body);
+    for (const sb_wavemaker_use *other = scene->wavemakers; other < use; other++)
+        if (strcmp(other->body, use->body) == 0)
+            return sb_reader_fail(reader, map, "body", "%s is already moved by %s, expected one wave maker per body",
+                                  use->body, other->name);
+    const sb_status status = check_direction(reader, map, use);
+    return status == SB_OK ? finish_law(reader, map, use) : status;
+}
+
 const sb_table sb_wavemaker_table = {SB_KEY_ROWS(keys), .size = sizeof(sb_wavemaker_use), .variant = variant,
                                      .finish = finish};
+
+/* A side of a grid stands still and has no filter of what comes back. */
+static sb_status finish_grid_paddle(sb_reader *reader, const sb_yaml *map, void *item)
+{
+    sb_wavemaker_use *use = item;
+    if (strcmp(use->law.kind->name, "gate") == 0)
+        return sb_reader_fail(reader, map, "kind", "gate moves upwards, expected a law of a piston");
+    if (isinf(use->law.start))
+        return sb_reader_fail(reader, map, "start", "command: a side of a grid takes no commands, expected seconds");
+    if (use->law.absorb || strcmp(use->law.kind->name, "absorber") == 0)
+        return sb_reader_fail(reader, map, "absorb",
+                              "a side of a grid does not absorb, expected false, or a side of "
+                              "kind open");
+    return finish_law(reader, map, use);
+}
+
+const sb_table sb_grid_paddle_table = {.keys = keys + PLACE_ROWS,
+                                       .count = sizeof keys / sizeof *keys - PLACE_ROWS,
+                                       .size = sizeof(sb_wavemaker_use),
+                                       .variant = variant,
+                                       .finish = finish_grid_paddle};

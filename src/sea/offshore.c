@@ -1,5 +1,6 @@
 /* Given water from the depth-averaged model, which is stepped together with the particles. */
 #include "base/memory.h"
+#include "offshore/maps.h"
 #include "offshore/motion.h"
 #include "sea/parts.h"
 
@@ -8,6 +9,7 @@
 
 typedef struct nest {
     sb_offshore *water;
+    sb_offshore_maps *maps;  /* NULL: none */
     double before;           /* s that the grid runs before the particles */
     double highest, fastest; /* m, m/s, at the start */
 } nest;
@@ -15,6 +17,7 @@ typedef struct nest {
 static void destroy(void *state)
 {
     nest *sea = state;
+    if (sea) sb_offshore_maps_destroy(sea->maps);
     if (sea) sb_offshore_destroy(sea->water);
     sb_free(sea);
 }
@@ -26,6 +29,7 @@ static sb_status run_ahead(nest *made, sb_error *error)
     while (time < made->before * (1 - 1e-12)) {
         const sb_status status = sb_offshore_step(made->water, made->before - time, &taken, error);
         if (status != SB_OK) return status;
+        if (made->maps) sb_offshore_maps_step(made->maps, made->water, taken);
         time += taken;
     }
     return SB_OK;
@@ -39,6 +43,8 @@ static sb_status create(const sb_scene *scene, const sb_offshore_start *grid, vo
     if (!made) return sb_fail_memory(error, "sea");
     *made = (nest){.before = -scene->given.start, .highest = grid->highest, .fastest = grid->fastest};
     sb_status status = sb_offshore_begin(scene, grid, &made->water, error);
+    if (status == SB_OK && scene->offshore.maps)
+        status = sb_offshore_maps_create(made->water, scene->offshore.threshold, &made->maps, error);
     if (status == SB_OK) status = run_ahead(made, error);
     if (status != SB_OK) {
         destroy(made);
@@ -83,4 +89,9 @@ static sb_offshore *grid_of(void *state)
     return ((nest *)state)->water;
 }
 
-const sb_sea_form sb_sea_form_offshore = {create, at, greatest_surface, greatest_speed, destroy, grid_of};
+static sb_offshore_maps *maps_of(void *state)
+{
+    return ((nest *)state)->maps;
+}
+
+const sb_sea_form sb_sea_form_offshore = {create, at, greatest_surface, greatest_speed, destroy, grid_of, maps_of};

@@ -19,7 +19,8 @@ typedef struct sb_sea_form {
     double (*greatest_surface)(const void *state);
     double (*greatest_speed)(const void *state);
     void (*destroy)(void *state);
-    sb_offshore *(*grid)(void *state); /* NULL: the form has none */
+    sb_offshore *(*grid)(void *state);      /* NULL: the form has none */
+    sb_offshore_maps *(*maps)(void *state); /* likewise */
 } sb_sea_form;
 
 extern const sb_sea_form sb_sea_form_theory, sb_sea_form_table, sb_sea_form_record, sb_sea_form_offshore;

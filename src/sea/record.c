@@ -203,4 +203,4 @@ static double greatest_speed(const void *state)
     return ((const record *)state)->speed;
 }
 
-const sb_sea_form sb_sea_form_record = {create, at, greatest_surface, greatest_speed, destroy, NULL};
+const sb_sea_form sb_sea_form_record = {create, at, greatest_surface, greatest_speed, destroy, NULL, NULL};

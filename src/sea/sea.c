@@ -69,6 +69,11 @@ sb_offshore *sb_sea_grid(sb_sea_source *sea)
     return sea->form && sea->form->grid ? sea->form->grid(sea->state) : NULL;
 }
 
+sb_offshore_maps *sb_sea_maps(sb_sea_source *sea)
+{
+    return sea->form && sea->form->maps ? sea->form->maps(sea->state) : NULL;
+}
+
 double sb_sea_greatest_surface(const sb_sea_source *sea)
 {
     return sea->form ? sea->form->greatest_surface(sea->state) : sea->level;

@@ -5,6 +5,7 @@
 #define SB_SEA_SEA_H
 
 #include "base/status.h"
+#include "offshore/maps.h"
 #include "offshore/start.h"
 #include "scene/scene.h"
 
@@ -30,6 +31,9 @@ void sb_sea_at(const sb_sea_source *sea, double t, double x, double y, double z,
 /* The depth-averaged model that gives the water; NULL with other sources. It is valid as long as the source. The caller
    steps it: sb_sea_at is then linear in time through its last two levels. */
 sb_offshore *sb_sea_grid(sb_sea_source *sea);
+
+/* The maps of that model since its start; the caller advances them with it. NULL: none. */
+sb_offshore_maps *sb_sea_maps(sb_sea_source *sea);
 
 /* The highest surface, m, and the highest speed, m/s, at any time: upper bounds that are reached, or nearly; with a
    grid those at the start. */

@@ -125,4 +125,4 @@ static double greatest_speed(const void *state)
     return most;
 }
 
-const sb_sea_form sb_sea_form_table = {create, at, greatest_surface, greatest_speed, destroy, NULL};
+const sb_sea_form sb_sea_form_table = {create, at, greatest_surface, greatest_speed, destroy, NULL, NULL};

@@ -188,4 +188,4 @@ static double greatest_speed(const void *state)
     return speed;
 }
 
-const sb_sea_form sb_sea_form_theory = {create, at, greatest_surface, greatest_speed, destroy, NULL};
+const sb_sea_form sb_sea_form_theory = {create, at, greatest_surface, greatest_speed, destroy, NULL, NULL};

@@ -12,8 +12,8 @@ typedef struct sb_needs {
     bool images;                /* walls reflect water */
     bool sea;                   /* water of a given sea comes in through a side */
     bool surface_tension;
-    bool sponge;                /* zones slow water down */
-    bool foam;                  /* water emits spray, foam and bubbles */
+    bool sponge; /* zones slow water down */
+    bool foam;   /* water emits spray, foam and bubbles */
     bool settling;
     bool start_velocity;     /* water in motion at t = 0, after settling */
     bool implicit;           /* steps have a pressure solve */

@@ -12,7 +12,7 @@
 #include "frame/stage_time.h"
 #include "frame/step_report.h"
 #include "geometry/model/model.h"
-#include "offshore/offshore.h"
+#include "offshore/maps.h"
 #include "scene/scene.h"
 
 typedef struct sb_sim sb_sim;
@@ -90,6 +90,8 @@ const sb_crossing *sb_sim_crossing(const sb_sim *sim);
 /* The depth-averaged model that gives the water at sides of kind sea; NULL: the scene has none. Its time is at or after
    that of the particles. */
 const sb_offshore *sb_sim_grid(const sb_sim *sim);
+/* The maps of that model since its own start; NULL: none. Their times are those of the grid. */
+const sb_offshore_maps *sb_sim_grid_maps(const sb_sim *sim);
 
 const sb_departures *sb_sim_departures(const sb_sim *sim);
 

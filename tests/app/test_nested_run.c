@@ -18,20 +18,29 @@
     "offshore: {cell: 0.04, min: [-6], max: [4], manning: 0, sides: {x_min: wall}, " more                              \
     "wave: {kind: solitary, height: 0.1, depth: 0.4, position: -2, theory: serre}}\n"
 
-/* A row of gauges.csv per instant: the highest surface over the still level from a time to another. */
-static double highest_between(const char *run, double from, double to)
+/* A row of gauges.csv per instant: the highest surface over the still level from a time to another; *when: its time. */
+static double highest_at(const char *run, const char *gauge, double from, double to, double *when)
 {
-    char path[64];
+    char path[64], cell[16];
     snprintf(path, sizeof path, "%s/gauges.csv", run);
+    snprintf(cell, sizeof cell, ",%s,", gauge);
     char *table = text_of(path), *save = NULL;
     double highest = -1;
     for (char *row = strtok_r(table, "\n", &save); row; row = strtok_r(NULL, "\n", &save)) {
-        const char *eta = strstr(row, ",g,");
+        const char *eta = strstr(row, cell);
         const double time = strtod(row, NULL);
-        if (eta && time >= from && time < to) highest = fmax(highest, strtod(eta + 3, NULL));
+        if (!eta || time < from || time >= to || !(strtod(eta + strlen(cell), NULL) > highest)) continue;
+        highest = strtod(eta + strlen(cell), NULL);
+        *when = time;
     }
     sb_free(table);
     return highest;
+}
+
+static double highest_between(const char *run, double from, double to)
+{
+    double when;
+    return highest_at(run, "g", from, to, &when);
 }
 
 /* Depths of the cells of a grid file, which are the first 250 of the second array. */
@@ -87,7 +96,13 @@ static void a_wave_comes_in_and_leaves(void **state)
 static void bits_are_those_of_any_threads_and_of_a_resumed_run(void **state)
 {
     (void)state;
-    static const char *const files[] = {"gauges.csv", "energy.csv", "grid.pvd", "grid/000003.vti", NULL};
+    static const char *const files[] = {"gauges.csv",
+                                        "energy.csv",
+                                        "grid.pvd",
+                                        "grid/000003.vti",
+                                        "maps/grid_max_depth.asc",
+                                        "maps/grid_arrival_time.asc",
+                                        NULL};
     write_text("nested.yaml", HEAD GRID("coupling: two-way, "));
     RUN_AND_FORGET(0, "run", "nested.yaml", "--out", "whole", "--quiet", "--until", "1.2", "--threads", "1");
     RUN_AND_FORGET(0, "run", "nested.yaml", "--out", "threads", "--quiet", "--until", "1.2", "--threads", "2");
@@ -111,12 +126,126 @@ static void water_at_rest_stays(void **state)
     assert_true(highest_between("rest", 0, 3) < 0.004);
 }
 
+/* The volume that has entered the grid through x_min. */
+static double entered_at_x_min(const char *path)
+{
+    static const char key[] = "\"x_min\": ";
+    char *text = text_of(path);
+    const char *object = strstr(text, "\"entered_m3\""), *at = object ? strstr(object, key) : NULL;
+    assert_non_null(at);
+    const double value = strtod(at + strlen(key), NULL);
+    sb_free(text);
+    return value;
+}
+
+/* The value in column `column` of the only row of a map. */
+static double map_value(const char *path, size_t column)
+{
+    char *text = text_of(path), *at = text;
+    for (int line = 0; line < 6; line++) at = strchr(at, '\n') + 1;
+    double value = 0;
+    for (size_t k = 0; k <= column; k++) value = strtod(at, &at);
+    sb_free(text);
+    return value;
+}
+
+/* A gauge outside of the particles reads the grid, whose solitary wave is exact: its height, and the time at which its
+   crest is there. Likewise one within that says so. Times of maps are those of the run. */
+static void gauges_and_maps_of_the_grid(void **state)
+{
+    (void)state;
+    double early, late, within;
+    const double celerity = sqrt(9.81 * 0.5);
+    write_text("nested.yaml", HEAD GRID(""));
+    outcome o = RUN(0, "run", "nested.yaml", "--out", "grid", "--quiet", "--set", "sea.start=-0.2", "--set",
+                    "output.plots=true", "--set",
+                    "measure.gauges=[{name: g, x: 1.2}, {name: far, x: -1.2}, {name: near, x: -0.4}, "
+                    "{name: both, x: 1.2, water: grid}]");
+    outcome_free(&o);
+    assert_near(highest_at("grid", "far", 0, 2, &early), 0.1, 1e-3);
+    assert_near(highest_at("grid", "near", 0, 2, &late), 0.1, 1e-3);
+    assert_near(early, 0.8 / celerity - 0.2, 0.02); /* an interval of the rows */
+    assert_near(late, 1.6 / celerity - 0.2, 0.02);
+    assert_near(highest_at("grid", "both", 0, 2, &within), 0.1, 1e-3);
+    assert_near(within, 3.2 / celerity - 0.2, 0.02);
+    assert_near(map_value("grid/maps/grid_max_depth.asc", 140), 0.5, 1e-3);      /* x = -0.38 */
+    assert_near(map_value("grid/maps/grid_inundation_time.asc", 140), 0, 1e-12); /* was wet */
+    const double arrival = map_value("grid/maps/grid_arrival_time.asc", 140);
+    assert_true(arrival > 0 && arrival < late); /* a rise of half of the height, before the crest */
+    assert_true(exists("grid/maps/grid_max_speed.asc") && exists("grid/maps/grid_max_momentum_flux.asc"));
+    assert_true(!exists("grid/maps/max_depth.asc"));
+    char *scene = text_of("grid/scene.yaml"), *summary = text_of("grid/summary.json");
+    assert_contains(scene, "water: grid");
+    assert_contains(summary, "\"grid\": {");
+    assert_contains(summary, "\"from_particles_m3\": 0");
+    sb_free(scene);
+    sb_free(summary);
+    RUN_AND_FORGET(0, "report", "grid");
+    char *page = text_of("grid/report.html");
+    assert_contains(page, "Depth-averaged water beside the particles");
+    sb_free(page);
+    RUN_AND_FORGET(0, "run", "nested.yaml", "--out", "grid", "--quiet", "--overwrite", "--until", "0.1", "--set",
+                   "offshore.maps=false");
+    assert_true(!exists("grid/maps/grid_max_depth.asc") && !exists("grid/maps/grid_max_depth.png"));
+}
+
+/* The grid's side makes the wave that a paddle with its face at -4.2 m would make. */
+static void a_paddle_makes_the_wave(void **state)
+{
+    (void)state;
+    double when;
+    const double height = 0.1, depth = 0.4, c = sqrt(9.81 * (depth + height));
+    const double kappa = sqrt(3 * height / (4 * depth * depth * (depth + height))),
+                 stroke = 2 * height / (kappa * depth);
+    const double half = (3.8 + height / depth) / (kappa * c); /* of the motion: then it is at the crest */
+    const char *const grid = "offshore={cell: 0.04, min: [-3.2], max: [4], manning: 0, sides: {x_min: paddle}, "
+                             "paddle: {kind: goring-rayleigh, height: 0.1, depth: 0.4}, paddle_at: -4.2}";
+    write_text("nested.yaml", HEAD GRID(""));
+    RUN_AND_FORGET(0, "run", "nested.yaml", "--out", "paddle", "--quiet", "--set", grid, "--set", "duration=4.5",
+                   "--set", "measure.gauges=[{name: g, x: 1.2}, {name: far, x: -1.2}]");
+    assert_near(highest_at("paddle", "far", 0, 4.5, &when), height, 1e-3);
+    assert_near(when, half + (3 - stroke / 2) / c, 0.025);
+    assert_near(highest_between("paddle", 0, 4.5), height, 0.008);
+    const double volume = entered_at_x_min("paddle/summary.json");
+    assert_near(volume, 2 * height / kappa, 2e-3 * 2 * height / kappa);
+    outcome o = RUN(1, "check", "nested.yaml", "--set", "offshore.sides={x_min: paddle}");
+    assert_contains(o.err, "offshore.sides: x_min: paddle, but there is no block offshore.paddle, expected its law");
+    outcome_free(&o);
+    o = RUN(1, "check", "nested.yaml", "--set", "offshore.paddle={kind: goring, height: 0.1, depth: 0.4}");
+    assert_contains(o.err, "offshore.paddle: no side is moved by it, expected sides: {x_min: paddle}");
+    outcome_free(&o);
+    o = RUN(1, "check", "nested.yaml", "--set", grid, "--set", "offshore.paddle={kind: gate, stroke: 1, speed: 1}");
+    assert_contains(o.err, "offshore.paddle.kind: gate moves upwards, expected a law of a piston");
+    outcome_free(&o);
+}
+
+static void gauges_outside_of_all_water_are_refused(void **state)
+{
+    (void)state;
+    write_text("nested.yaml", HEAD GRID(""));
+    outcome o = RUN(1, "check", "nested.yaml", "--set", "measure.gauges=[{name: g, x: -6.5}]");
+    assert_contains(o.err, "measure.gauges[0].x: is outside of the domain and of the grid, expected inside");
+    outcome_free(&o);
+    o = RUN(1, "check", "nested.yaml", "--set", "measure.gauges=[{name: g, x: -1, water: particles}]");
+    assert_contains(o.err, "measure.gauges[0].x: is outside of the domain, expected inside");
+    outcome_free(&o);
+    write_text("alone.yaml", "title: t\nduration: 1\ndomain: {min: [0, 0, -9], max: [90, 40, 9]}\n"
+                             "offshore: {cell: 1}\nmeasure: {gauges: [{name: g, x: 5, y: 5, water: grid}]}\n");
+    o = RUN(1, "check", "alone.yaml");
+    assert_contains(o.err, "measure.gauges[0].water: needs particles and a grid, expected a scene with sea: {source: "
+                           "offshore}");
+    outcome_free(&o);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_wave_comes_in_and_leaves),
         cmocka_unit_test(bits_are_those_of_any_threads_and_of_a_resumed_run),
         cmocka_unit_test(water_at_rest_stays),
+        cmocka_unit_test(gauges_and_maps_of_the_grid),
+        cmocka_unit_test(a_paddle_makes_the_wave),
+        cmocka_unit_test(gauges_outside_of_all_water_are_refused),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

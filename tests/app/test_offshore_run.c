@@ -184,6 +184,38 @@ static void waves_run_up_a_beach(void **state)
     assert_near(high / 0.542, 1, 0.12);
 }
 
+/* The highest surface at a gauge; below -1e8: it was dry throughout. */
+static double highest(const char *run, const char *gauge)
+{
+    char path[64], cell[32];
+    snprintf(path, sizeof path, "%s/gauges.csv", run);
+    snprintf(cell, sizeof cell, ",%s,", gauge);
+    char *table = text_of(path), *save = NULL;
+    double most = -1e9;
+    for (char *row = strtok_r(table, "\n", &save); row; row = strtok_r(NULL, "\n", &save)) {
+        const char *eta = strstr(row, cell), *z = eta ? strchr(eta + strlen(cell), ',') : NULL;
+        if (z && z[1]) most = fmax(most, strtod(z + 1, NULL));
+    }
+    sb_free(table);
+    return most;
+}
+
+/* The dike holds the tide, and holds the wave; not both. */
+static void tide_and_wave_add(void **state)
+{
+    (void)state;
+    const char *const scene = SB_SOURCE_DIR "/assets/scenes/tide.yaml";
+    RUN_AND_FORGET(0, "run", scene, "--out", "both", "--quiet", "--set", "output.plots=false");
+    RUN_AND_FORGET(0, "run", scene, "--out", "tide", "--quiet", "--set", "output.plots=false", "--set",
+                   "offshore.wave={kind: none}");
+    RUN_AND_FORGET(0, "run", scene, "--out", "wave", "--quiet", "--set", "output.plots=false", "--set",
+                   "offshore.level=0", "--set", "offshore.wave.depth=10");
+    assert_near(highest("tide", "before-dike"), 1.2, 1e-9);
+    assert_true(highest("tide", "behind-dike") < -1e8 && highest("wave", "behind-dike") < -1e8);
+    assert_true(highest("both", "behind-dike") > 1.65);
+    assert_true(highest("both", "before-dike") > highest("wave", "before-dike") + 1.2);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -193,6 +225,7 @@ int main(void)
         cmocka_unit_test(bad_input_is_one_line),
         cmocka_unit_test(earlier_files_are_kept_or_replaced),
         cmocka_unit_test(waves_run_up_a_beach),
+        cmocka_unit_test(tide_and_wave_add),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

@@ -232,12 +232,56 @@ static void render_draws_stills(void **state)
     outcome_free(&o);
 }
 
+/* Columns of the middle row of a picture that show water, which is darker than the sky, on the left and
+   the right half. */
+static void count_water(const char *path, int water[2])
+{
+    png_image image;
+    png_bytep pixels = read_png(in_folder("%s", path), &image);
+    const png_bytep row = pixels + 3 * (size_t)(image.height / 2) * image.width;
+    water[0] = water[1] = 0;
+    for (unsigned x = 0; x < image.width; x++) water[x >= image.width / 2] += row[3 * x] < 130;
+    sb_free(pixels);
+}
+
+/* The side of the domain, where the water of the grid and that of the particles meet, is in the middle of the picture;
+   both water is as high as the view. */
+static void water_of_the_grid_joins_that_of_particles(void **state)
+{
+    (void)state;
+    int water[2];
+    write_text("nested.yaml", "title: t\ndimensions: 2\nresolution: 0.04\nduration: 0.9\nnumerics: {settle_steps: 20}\n"
+                              "output: {plots: false}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
+                              "domain: {min: [0, 0], max: [2, 0.8], sides: {x_min: sea}}\nsea: {source: offshore}\n"
+                              "offshore: {cell: 0.04, min: [-4], max: [2], manning: 0, sides: {x_min: wall},\n"
+                              "  wave: {kind: solitary, height: 0.1, depth: 0.4, position: -1.5, theory: serre}}\n"
+                              "render: {stills: [0, 0.7], still_width: 200, still_height: 100, scale_bar: false,\n"
+                              "  cameras: [{name: side, eye: [0, -3, 0.2], target: [0, 0, 0.2], fov: 20}]}\n");
+    RUN_AND_FORGET(0, "run", "nested.yaml", "--out", "joined", "--quiet", "--set", "offshore.drawn=2");
+    RUN_AND_FORGET(0, "run", "nested.yaml", "--out", "parted", "--quiet", "--set", "offshore.drawn=0", "--until",
+                   "0.01");
+    for (int k = 1; k <= 2; k++) {
+        char name[64];
+        snprintf(name, sizeof name, "joined/stills/side/%06d.png", k);
+        count_water(name, water);
+        assert_int_equal(water[0], 100);
+        assert_int_equal(water[1], 100);
+    }
+    count_water("parted/stills/side/000001.png", water);
+    assert_true(water[0] < 5);
+    assert_int_equal(water[1], 100);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pictures_have_their_exact_times), cmocka_unit_test(a_step_can_have_several_pictures),
-        cmocka_unit_test(stills_have_their_own_size),      cmocka_unit_test(a_resumed_run_has_the_same_pictures),
-        cmocka_unit_test(render_draws_the_same_pictures),  cmocka_unit_test(render_draws_stills),
+        cmocka_unit_test(pictures_have_their_exact_times),
+        cmocka_unit_test(a_step_can_have_several_pictures),
+        cmocka_unit_test(stills_have_their_own_size),
+        cmocka_unit_test(a_resumed_run_has_the_same_pictures),
+        cmocka_unit_test(render_draws_the_same_pictures),
+        cmocka_unit_test(render_draws_stills),
+        cmocka_unit_test(water_of_the_grid_joins_that_of_particles),
     };
     return cmocka_run_group_tests(tests, setup, program_teardown);
 }

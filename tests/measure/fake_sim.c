@@ -21,6 +21,12 @@ sb_vec3 sb_sim_body_displacement(const sb_sim *sim, size_t body)
     return sim->displacements[body];
 }
 
+const sb_offshore *sb_sim_grid(const sb_sim *sim)
+{
+    (void)sim;
+    return NULL;
+}
+
 sb_energy sb_sim_energy(const sb_sim *sim)
 {
     return sim->energy;

@@ -58,7 +58,7 @@ static void gauges_and_probes_read_across_periodic_sides(void **state)
             tank_roll(&t, half);
             at = sb_vec(0, size.y, 0);
         }
-        sb_gauge gauge = {"gauge", at.x, at.y};
+        sb_gauge gauge = {"gauge", at.x, at.y, 0};
         sb_probe probes[] = {{"inside", {at.x, at.y, 0.3}, 0}, {"floor", at, 0}};
         t.scene.measure = (sb_measure_settings){
             .interval = 0.02, .gauge_count = 1, .gauges = &gauge, .probe_count = 2, .probes = probes};

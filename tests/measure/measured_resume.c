@@ -9,7 +9,7 @@
 
 enum { BEFORE = 60, AFTER = 60 };
 
-static const sb_gauge gauges[] = {{"wet", 0.33, 0}, {"far", 0.61, 0}, {"dry", 1.7, 0}};
+static const sb_gauge gauges[] = {{"wet", 0.33, 0, 0}, {"far", 0.61, 0, 0}, {"dry", 1.7, 0, 0}};
 static const sb_probe probes[] = {{"inside", {0.5, 0, 0.3}, 0}, {"wall", {2, 0, 0.1}, 0}};
 static const sb_flow_plane planes[] = {{"plane", 1.1, 0, 1.1, 1, -1, 4, true, 0.026, 1, {.height = 0}},
                                        {"lip", 1.3, 0, 1.3, 1, 0.2, 4, false, 0, 0, {.height = 0}}};

@@ -33,7 +33,7 @@ static void a_tank_at_rest_reads_hydrostatic_values(void **state)
     tank t;
     sb_vec3 size = {2, 1, 2};
     tank_make(&t, 2, SPACING, size, 2, 1, 0);
-    sb_gauge gauge = {"middle", 1.03, 0};
+    sb_gauge gauge = {"middle", 1.03, 0, 0};
     sb_probe probes[] = {{"inside", {1, 0, 0.5}, 0}, {"floor", {0.9, 0, 0}, 0}, {"wall", {0, 0, 0.4}, 0}};
     t.scene.measure =
         (sb_measure_settings){.interval = 0.05, .gauge_count = 1, .gauges = &gauge, .probe_count = 3, .probes = probes};

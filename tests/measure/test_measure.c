@@ -111,7 +111,7 @@ static void instants_lie_on_multiples(void **state)
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(10, 10, 5), 0, 0, 0, 1);
     for (size_t i = 0; i < world.sim.report.fluid_count; i++) world.sim.samples[i].velocity = sb_vec(0, 0, 0.7);
     world.sim.report.max_speed = 0.7;
-    sb_gauge gauge = {"g", 5, 5};
+    sb_gauge gauge = {"g", 5, 5, 0};
     world.scene.measure.gauges = &gauge;
     world.scene.measure.gauge_count = 1;
     world.scene.sea = (sb_sea){.present = true, .level = 5.5};
@@ -152,7 +152,7 @@ static void without_a_level_there_is_no_elevation_above_it(void **state)
     fake_world world;
     fake_world_make(&world, 3, 1, sb_vec(0, 0, -5), sb_vec(10, 10, 30));
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(10, 10, 5), 0, 0, 0, 1);
-    sb_gauge gauge = {"g", 5, 5};
+    sb_gauge gauge = {"g", 5, 5, 0};
     world.scene.measure.gauges = &gauge;
     world.scene.measure.gauge_count = 1;
     sb_measure *measure;
@@ -189,7 +189,7 @@ static void survives_failing_memory(void **state)
     sb_model_body bodies[3];
     make_world(&world, bodies);
     fake_fill(&world, sb_vec(0, 0, 0), sb_vec(10, 10, 5), 0, 0, 0, 1);
-    sb_gauge gauge = {"g", 5, 5};
+    sb_gauge gauge = {"g", 5, 5, 0};
     sb_flow_plane plane = {"plane", 5, 0, 5, 10, 0, 10, false, 0, 0, {.height = 0}};
     sb_measure_settings *settings = &world.scene.measure;
     settings->gauges = &gauge;

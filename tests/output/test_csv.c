@@ -14,7 +14,7 @@
 #include <sys/resource.h>
 
 static sb_model_body bodies[2] = {{.name = "reactor1", .report = true}, {.name = "a \"b\", c", .report = true}};
-static sb_gauge gauges[1] = {{"offshore", 1, 2}};
+static sb_gauge gauges[1] = {{"offshore", 1, 2, 0}};
 static sb_probe probes[1] = {{"inlet", {0, 0, 0}, 0}};
 static sb_flow_plane planes[1] = {
     {.name = "quay", .by = 1, .z_max = 1, .record = true, .record_interval = 0.1, .record_spacing = 1}};

@@ -11,7 +11,8 @@ static void rates_are_means_per_metre(void **state)
     (void)state;
     FILE *file = fopen(SB_BINARY_DIR "/overtopping.csv", "w");
     assert_non_null(file);
-    fputs("time_s,plane,volume_m3,flux_m3_s\n0,crest,0,0\n0,sea,0,0\n1,crest,0.5,0.5\n1,sea,7,7\n2,crest,1.5,1\n2,sea,8,1\n"
+    fputs("time_s,plane,volume_m3,flux_m3_s\n0,crest,0,0\n0,sea,0,0\n1,crest,0.5,0.5\n1,sea,7,7\n2,crest,1.5,1\n2,sea,"
+          "8,1\n"
           "4,crest,6.5,2.5\n4,sea,9,0.5\n",
           file);
     assert_int_equal(fclose(file), 0);

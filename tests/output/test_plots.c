@@ -16,7 +16,7 @@
 enum { BODIES = 14 };
 
 static sb_model_body bodies[BODIES];
-static sb_gauge gauges[2] = {{"offshore", 1, 2}, {"it's \"near\", 5 % off", 3, 4}};
+static sb_gauge gauges[2] = {{"offshore", 1, 2, 0}, {"it's \"near\", 5 % off", 3, 4, 0}};
 static sb_probe probes[1] = {{"inlet", {0, 0, 0}, 0}};
 static sb_scene scene = {
     .dimensions = 3,
@@ -69,7 +69,7 @@ static void write_maps(void)
         for (int i = 0; i < COLUMNS; i++)
             values[j * COLUMNS + i] = i > 100 + j / 10 ? NAN : (float)(38 - 0.3 * i + 0.05 * j);
     const sb_map_record map = {COLUMNS, ROWS, 0, -575, 10, values, values, values, values, values};
-    assert_int_equal(sb_maps_write(folder, &map, NULL), SB_OK);
+    assert_int_equal(sb_maps_write(folder, &map, false, NULL), SB_OK);
 }
 
 static bool is_png(const char *name)

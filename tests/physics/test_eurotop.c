@@ -18,8 +18,8 @@ static void values_worked_out_by_hand(void **state)
     assert_near(sb_eurotop_slope(1, 0, 0.25, period, g), 0.0575 * 3.132092, 1e-6);
     /* 2.7 R/1.25 = 1. */
     assert_near(sb_eurotop_slope(1, 1.25 / 2.7, 0.25, period, g), 0.0575 * 3.132092 * 0.36787944, 1e-6);
-    /* A slope of 1:2, x = 2.5: 0.0813 is below 0.09 at R = 0, but with R/H = 1/1.5 the limit is the smaller one: 0.09/e,
-       beside 0.08131728 exp(-(1.8/2.5)^1.3) = 0.08131728 * 0.52078006. */
+    /* A slope of 1:2, x = 2.5: 0.0813 is below 0.09 at R = 0, but with R/H = 1/1.5 the limit is the smaller one:
+       0.09/e, beside 0.08131728 exp(-(1.8/2.5)^1.3) = 0.08131728 * 0.52078006. */
     assert_near(sb_eurotop_slope(1, 1 / 1.5, 0.5, period, g), 0.09 * 0.36787944 * 3.132092, 1e-6);
 }
 

@@ -71,7 +71,8 @@ sb_status sb_model_warn_gauges(const sb_scene *scene, const sb_model_space *spac
     model->shallow = sb_alloc(settings->gauge_count, sizeof *model->shallow);
     if (!model->shallow) return sb_fail_memory(error, "gauges");
     for (size_t i = 0; i < settings->gauge_count; ++i) {
-        const double here = thin_depth(scene, space, model, &settings->gauges[i]);
+        const bool grid = settings->gauges[i].water == SB_GAUGE_GRID;
+        const double here = grid ? 0 : thin_depth(scene, space, model, &settings->gauges[i]);
         model->shallow[i] = here > 0;
         if (here > 0 && first == SIZE_MAX) {
             first = i;

@@ -106,7 +106,10 @@ size_t sb_strip_bytes(const sb_sim *sim)
         bytes += s->stations * (sizeof *s->station + SB_STATION_SUMS * sizeof *s->sums) +
                  s->columns * (2 * sizeof(int) + s->rows * (sizeof *s->owed + sizeof *s->correction + sizeof *s->left));
     }
-    return bytes + (grid ? sb_offshore_held(grid) : 0);
+    if (!grid) return bytes;
+    const sb_offshore_view v = sb_offshore_read(grid);
+    return bytes + sb_offshore_held(grid) +
+           (sb_sea_maps(sim->strip->sea) ? sb_offshore_maps_bytes(v.columns * v.rows) : 0);
 }
 
 const sb_strip_side *sb_strip_side_of(const sb_strip *strip, sb_record at)

@@ -19,6 +19,11 @@ const sb_offshore *sb_sim_grid(const sb_sim *sim)
     return sim->strip ? sb_sea_grid(sim->strip->sea) : NULL;
 }
 
+const sb_offshore_maps *sb_sim_grid_maps(const sb_sim *sim)
+{
+    return sim->strip ? sb_sea_maps(sim->strip->sea) : NULL;
+}
+
 /* The line beyond a side. */
 typedef struct line {
     const sb_strip_side *side;
@@ -100,12 +105,15 @@ sb_status sb_strip_advance_grid(sb_sim *sim, sb_error *error)
 {
     sb_offshore *grid = sb_sea_grid(sim->strip->sea);
     if (!grid) return SB_OK;
+    sb_offshore_maps *maps = sb_sea_maps(sim->strip->sea);
     const bool both = sim->scene->offshore.coupling == SB_COUPLING_TWO_WAY;
     const double now = sim->state.time - sim->scene->given.start, end = now + sim->state.time_step;
     while (sb_offshore_read(grid).time < end) {
         sb_status status = both ? set_jumps(sim, grid, now, error) : SB_OK;
-        if (status == SB_OK) status = sb_offshore_step(grid, 2 * (end + 1), NULL, error);
+        double taken = 0;
+        if (status == SB_OK) status = sb_offshore_step(grid, 2 * (end + 1), &taken, error);
         if (status != SB_OK) return status;
+        if (maps) sb_offshore_maps_step(maps, grid, taken);
     }
     return SB_OK;
 }

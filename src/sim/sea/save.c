@@ -12,6 +12,7 @@ void sb_strip_save(const sb_sim *sim, sb_archive_out *out)
 {
     if (!sim->strip) return;
     if (sb_sea_grid(sim->strip->sea)) sb_offshore_save(sb_sea_grid(sim->strip->sea), out);
+    if (sb_sea_maps(sim->strip->sea)) sb_offshore_maps_save(sb_sea_maps(sim->strip->sea), out);
     sb_put_flag(out, sim->strip->known);
     sb_put_count(out, sim->state.next_id);
     sb_put_list(out, &sim->state.crossing, sizeof sim->state.crossing / sizeof(double), sizeof(double));
@@ -56,6 +57,7 @@ void sb_strip_load(sb_sim *sim, sb_archive_in *in)
 {
     if (!sim->strip) return;
     if (sb_sea_grid(sim->strip->sea)) sb_offshore_load(sb_sea_grid(sim->strip->sea), in);
+    if (sb_sea_maps(sim->strip->sea)) sb_offshore_maps_load(sb_sea_maps(sim->strip->sea), in);
     sim->strip->known = sb_take_flag(in);
     sim->state.next_id = (uint32_t)sb_take_count(in, UINT32_MAX);
     sb_take_list(in, &sim->state.crossing, sizeof sim->state.crossing / sizeof(double), sizeof(double));

@@ -363,7 +363,7 @@ static void gauges_over_thin_water_are_reported(void **state)
         double depth;
         bool thin;
     } cases[] = {{0.2, true}, {0.45, true}, {1, false}, {2, false}, {-1, false}, {0.01, false}};
-    static const sb_gauge gauges[] = {{"deep", 2, 3}, {"shelf", 8, 3}, {"end", 9.2, 3}};
+    static const sb_gauge gauges[] = {{"deep", 2, 3, 0}, {"shelf", 8, 3, 0}, {"end", 9.2, 3, 0}};
     scene.measure.gauges = (sb_gauge *)gauges;
     scene.measure.gauge_count = 2;
     for (scene.dimensions = 2; scene.dimensions <= 3; ++scene.dimensions)
