@@ -136,7 +136,7 @@ static sb_status check_direction(sb_reader *reader, const sb_yaml *map, const sb
 /* Rows before those of the law. */
 enum { PLACE_ROWS = 3 };
 
-/* Checks the law by making a paddle. */
+/* Checks the law by making a paddle. A side of a grid has no body. */
 static sb_status finish_law(sb_reader *reader, const sb_yaml *map, sb_wavemaker_use *use)
 {
     use->law.gravity = reader->scene->fluid.gravity;
@@ -145,12 +145,12 @@ static sb_status finish_law(sb_reader *reader, const sb_yaml *map, sb_wavemaker_
         if (!sb_yaml_child(map, "absorb")) use->law.absorb = strcmp(use->law.kind->name, "absorber") == 0;
         if (!sb_yaml_child(map, "reach")) use->law.reach = 0.5 * use->law.depth;
     }
-    status = sb_plates_check(reader, map, use);
+    sb_status status = use->body[0] ? sb_plates_check(reader, map, use) : SB_OK;
     if (status != SB_OK) return status;
     sb_paddle paddle = {0};
     sb_error why = {0};
     sb_absorbing_filter filter;
-    sb_status status = sb_paddle_create(&use->law, &paddle, &why);
+    status = sb_paddle_create(&use->law, &paddle, &why);
     if (status == SB_OK && use->law.absorb) {
         status =
             sb_paddle_fit_absorption(&use->law, &paddle, SB_ABSORB_DISTANCE * reader->scene->resolution, &filter, &why);
@@ -190,7 +190,9 @@ static sb_status finish_grid_paddle(sb_reader *reader, const sb_yaml *map, void 
         return sb_reader_fail(reader, map, "kind", "gate moves upwards, expected a law of a piston");
     if (isinf(use->law.start))
         return sb_reader_fail(reader, map, "start", "command: a side of a grid takes no commands, expected seconds");
-    if (use->law.absorb || strcmp(use->law.kind->name, "absorber") == 0)
+    if (use->law.motion == SB_PADDLE_FLAP)
+        return sb_reader_fail(reader, map, "motion", "a side of a grid moves water as a piston, expected piston");
+    if (use->law.absorb || use->plates.width > 0 || strcmp(use->law.kind->name, "absorber") == 0)
         return sb_reader_fail(reader, map, "absorb",
                               "a side of a grid does not absorb, expected false, or a side of "
                               "kind open");
