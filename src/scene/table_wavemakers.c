@@ -94,13 +94,13 @@ static const sb_key keys[] = {
     {.name = "reach", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.reach), .unit = "m", SB_KEY_POSITIVE,
      .applies = SB_WM_TRAIN, .only = "wave trains", .derived = "half of the depth",
      .doc = "Farthest that an absorbing paddle moves from its law to absorb."},
-    {.name = "plates", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_wavemaker_use, plates), .table = &plate_table,
-     .applies = SB_WM_TRAIN, .only = "wave trains",
-     .doc = "Push-plates side by side, into which an absorbing paddle is divided: each absorbs on its own. 3D only."},
     {.name = "after", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_wavemaker_use, law.after),
      .words = after_names, .fallback = "stay",
      .doc = "Motion after the stroke: `stay` at its end, or `return` to the start."},
     LAW_NUMBER(return_time, "s", RETURNS, "after: return", "Duration of the return."),
+    {.name = "plates", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_wavemaker_use, plates), .table = &plate_table,
+     .applies = SB_WM_TRAIN, .only = "wave trains",
+     .doc = "Push-plates side by side, into which an absorbing paddle is divided: each absorbs on its own. 3D only."},
 };
 /* clang-format on */
 
@@ -133,8 +133,8 @@ static sb_status check_direction(sb_reader *reader, const sb_yaml *map, const sb
     return SB_OK;
 }
 
-/* Rows before those of the law. */
-enum { PLACE_ROWS = 3 };
+/* Rows of the body before and after those of the law. */
+enum { PLACE_ROWS = 3, PLATE_ROWS = 1 };
 
 /* Checks the law by making a paddle. A side of a grid has no body. */
 static sb_status finish_law(sb_reader *reader, const sb_yaml *map, sb_wavemaker_use *use)
@@ -192,7 +192,7 @@ static sb_status finish_grid_paddle(sb_reader *reader, const sb_yaml *map, void 
         return sb_reader_fail(reader, map, "start", "command: a side of a grid takes no commands, expected seconds");
     if (use->law.motion == SB_PADDLE_FLAP)
         return sb_reader_fail(reader, map, "motion", "a side of a grid moves water as a piston, expected piston");
-    if (use->law.absorb || use->plates.width > 0 || strcmp(use->law.kind->name, "absorber") == 0)
+    if (use->law.absorb || strcmp(use->law.kind->name, "absorber") == 0)
         return sb_reader_fail(reader, map, "absorb",
                               "a side of a grid does not absorb, expected false, or a side of "
                               "kind open");
@@ -200,7 +200,7 @@ static sb_status finish_grid_paddle(sb_reader *reader, const sb_yaml *map, void 
 }
 
 const sb_table sb_grid_paddle_table = {.keys = keys + PLACE_ROWS,
-                                       .count = sizeof keys / sizeof *keys - PLACE_ROWS,
+                                       .count = sizeof keys / sizeof *keys - PLACE_ROWS - PLATE_ROWS,
                                        .size = sizeof(sb_wavemaker_use),
                                        .variant = variant,
                                        .finish = finish_grid_paddle};
