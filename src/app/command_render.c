@@ -19,8 +19,8 @@ static const char help[] =
     "usage: shorebreak render RUN_DIR|LOG [--camera NAME] [--set KEY=VALUE]... [--out DIR] [--quiet]\n"
     "Draws pictures from the particle files of a run (output.particle_interval), or from a stream that lcm-logger\n"
     "recorded, without simulating.\n\n"
-    "The stills of a run's scene (render.stills) are drawn, too; alone, if render.interval is 0. A still shows the\n"
-    "water of the nearest particle file if none has its time.\n\n"
+    "With --out, or --set render.stills, stills are drawn, too; alone, if render.interval is 0. They replace all\n"
+    "earlier ones of a camera. A still shows the water of the nearest particle file if none has its time.\n\n"
     "  --camera NAME    draw the pictures of this camera only (default: all of the scene's cameras)\n"
     "  --set KEY=VALUE  change a key of the run's scene, e.g. --set render.width=1920, or replace the cameras:\n"
     "                   --set 'render.cameras=[{name: top, eye: [0, 0, 900], target: [400, 1, 0]}]'\n"
@@ -101,6 +101,15 @@ typedef struct job {
     int camera, lock;
 } job;
 
+/* The stills of a run have their exact times: they are replaced on request only. */
+static bool asks_for_stills(const sb_options *options)
+{
+    bool asks = options->out != NULL;
+    for (size_t k = 0; k < options->override_count; k++)
+        asks = asks || strncmp(options->overrides[k].key, "render.still", strlen("render.still")) == 0;
+    return asks;
+}
+
 static sb_status open_run(job *j, const sb_options *options, sb_error *error)
 {
     char scene_path[SB_PATH_MAX];
@@ -110,6 +119,7 @@ static sb_status open_run(job *j, const sb_options *options, sb_error *error)
     if (status == SB_OK) status = sb_options_scene(options, scene_path, &j->scene, error);
     if (status == SB_OK) status = sb_grid_refuse(&j->scene, "render", error);
     if (status == SB_OK) status = choose_camera(&j->scene, options->camera, &j->camera, error);
+    if (status == SB_OK && !asks_for_stills(options)) j->scene.render.still_count = 0;
     return status == SB_OK ? read_list(j->source, j->format, &j->list, error) : status;
 }
 

@@ -5,8 +5,7 @@
 
 #include <math.h>
 
-/* Layers of particles below the surface: more than a ray sees of the water. */
-enum { LAYERS = 20 };
+enum { ALL_LAYERS = 10000 };
 /* Least depth of a film that is shown, in spacings. */
 static const double FILM = 0.3;
 
@@ -38,8 +37,20 @@ static bool is_inside(const axis *a, long column)
     return column >= 0 && column < a->inside;
 }
 
+static int most_layers(const sb_scene *scene)
+{
+    for (size_t c = 0; c < scene->render.camera_count; c++) {
+        const sb_camera *camera = &scene->render.cameras[c];
+        if (camera->color == SB_COLOR_DEPTH || camera->color == SB_COLOR_MOMENTUM_FLUX ||
+            sb_norm(camera->slice.normal) > 0)
+            return ALL_LAYERS;
+    }
+    return SB_GRID_PICTURE_LAYERS;
+}
+
 typedef struct lattice {
     axis x, y;
+    int most; /* layers */
     const sb_offshore *grid;
     double time, weight; /* s, of the grid; N/m^3 */
     bool flat;
@@ -52,7 +63,8 @@ static lattice lattice_of(const sb_sim *sim, const sb_scene *scene, const sb_fra
     lattice l = {.grid = sb_sim_grid(sim),
                  .time = frame->status.time - scene->given.start,
                  .weight = scene->fluid.density * scene->fluid.gravity,
-                 .flat = scene->dimensions == 2};
+                 .flat = scene->dimensions == 2,
+                 .most = most_layers(scene)};
     l.x = axis_of(d->min.x, d->max.x, o->x_min, o->x_max, o->drawn, frame->spacing);
     l.y = l.flat ? (axis){.spacing = frame->spacing, .count = 1, .inside = 1}
                  : axis_of(d->min.y, d->max.y, o->y_min, o->y_max, o->drawn, frame->spacing);
@@ -65,7 +77,7 @@ static int water_at(const lattice *l, long i, long j, sb_offshore_motion *water)
     if (is_inside(&l->x, i) && is_inside(&l->y, j)) return 0;
     sb_offshore_motion_at(l->grid, l->time, place_of(&l->x, i), l->flat ? 0 : place_of(&l->y, j), water);
     const double layers = water->wet ? (water->surface - water->bed) / l->x.spacing : 0;
-    return layers < FILM ? 0 : (int)fmin(fmax(round(layers), 1), LAYERS);
+    return layers < FILM ? 0 : (int)fmin(fmax(round(layers), 1), l->most);
 }
 
 /* The upmost layer is half a spacing below the surface, as in water of particles. Returns the number of particles. */
@@ -73,7 +85,7 @@ static int put_column(const lattice *l, sb_frame *frame, size_t to, long i, long
 {
     sb_offshore_motion water;
     const int layers = water_at(l, i, j, &water);
-    const double pitch = layers > 0 && layers < LAYERS ? (water.surface - water.bed) / layers : l->x.spacing;
+    const double pitch = layers > 0 && layers < l->most ? (water.surface - water.bed) / layers : l->x.spacing;
     for (int k = 0; k < layers; k++, to++) {
         const double z = water.surface - (k + 0.5) * pitch;
         float *position = frame->position + 3 * to, *velocity = frame->velocity + 3 * to;

@@ -6,6 +6,9 @@
 #include "scene/scene.h"
 #include "sim/sim.h"
 
+/* Layers of particles below the surface: more than a ray sees of the water. Pictures of depths and slices have all. */
+enum { SB_GRID_PICTURE_LAYERS = 20 };
+
 /* Adds the grid's water outside of the domain to a frame that is not published yet, at the frame's time, as particles
    on a lattice of the frame's spacing: pictures then show it like the other water. Does nothing without a grid.
    SB_FAILED without memory. */

@@ -1,5 +1,6 @@
 #include "app/room.h"
 
+#include "app/grid_picture.h"
 #include "base/memory.h"
 #include "geometry/grid/start.h"
 
@@ -9,7 +10,7 @@
    per neighbour of a fluid particle, per boundary particle, and per ghost particle. */
 static const double IMPULSE_BYTES = 9 * 8 / 1024.0; /* per particle and body: nine sums per block of 1024 */
 static const double PROGRAM_BYTES = 1e7, GRAPHICS_BYTES = 5e7, FLUID_BYTES = 166, PAIR_BYTES = 4.3, WALL_BYTES = 48,
-                    GHOST_BYTES = 90;
+                    GHOST_BYTES = 90, STEADY_BYTES = 24;
 
 /* Per pixel of a picture: two layers of water at 16 bytes, colour, depth, the pixels that are read back and those that
    are written. Per node of the two grids in which pictures find the surface: nodes are 1.5 spacings apart, or farther
@@ -77,12 +78,25 @@ static double picture_bytes(const sb_scene *scene, const sb_model *model)
     return GRAPHICS_BYTES + PIXEL_BYTES * pixels + NODE_BYTES * count_nodes(scene, model) * (still > 0 ? 2 : 1);
 }
 
+/* Upper bound of the particles by which a picture shows the grid's water. */
+static double count_drawn(const sb_scene *scene, const sb_model *model)
+{
+    const sb_offshore_settings *o = &scene->offshore;
+    const double dr = scene->resolution, x = model->max.x - model->min.x, y = model->max.y - model->min.y;
+    if (!sb_scene_nested(scene) || !sb_scene_draws(scene) || !(o->drawn > 0)) return 0;
+    const double wide = fmin(o->x_max, model->max.x + o->drawn) - fmax(o->x_min, model->min.x - o->drawn);
+    const double tall = fmin(o->y_max, model->max.y + o->drawn) - fmax(o->y_min, model->min.y - o->drawn);
+    const double columns = scene->dimensions == 2 ? (wide - x) / dr : (wide * tall - x * y) / (dr * dr);
+    return SB_GRID_PICTURE_LAYERS * fmax(columns, 0);
+}
+
 /* Foam: arrays that grow by doubling, and the frames. */
 static double foam_bytes(const sb_scene *scene, const sb_model *model)
 {
-    enum { PARTICLE = 48, WORDS = 16, MARK = 28, FRAME = 33, FLUID = 20 };
+    enum { PARTICLE = 48, WORDS = 16, MARK = 28, FRAME = 33, FLUID = 20, PIXEL = 36 };
     if (!scene->foam.enabled) return 0;
-    return (double)scene->foam.most * (2 * (PARTICLE + WORDS + MARK) + FRAME * count_frames(scene, model)) +
+    return PIXEL * (double)scene->render.width * scene->render.height +
+           (double)scene->foam.most * (2 * (PARTICLE + WORDS + MARK) + FRAME * count_frames(scene, model)) +
            FLUID * (double)model->fluid_count;
 }
 
@@ -114,12 +128,14 @@ static double tension_bytes(const sb_scene *scene, const sb_model *model)
 double sb_room_needed(const sb_scene *scene, const sb_model *model)
 {
     const double frame = FRAME_BYTES + (sb_scene_shows_density_error(scene) ? DENSITY_ERROR_BYTES : 0);
-    const double fluid = FLUID_BYTES + PAIR_BYTES * count_neighbours(scene) + frame * count_frames(scene, model) +
-                         (scene->stream.enabled ? STREAM_BYTES : 0);
+    const bool steady = scene->numerics.stress_correction > 0 && scene->numerics.stress_memory > 0;
+    const double fluid = FLUID_BYTES + (steady ? STEADY_BYTES : 0) + PAIR_BYTES * count_neighbours(scene) +
+                         frame * count_frames(scene, model) + (scene->stream.enabled ? STREAM_BYTES : 0);
     return PROGRAM_BYTES + picture_bytes(scene, model) + map_bytes(scene) + foam_bytes(scene, model) +
            (double)model->fluid_count * (fluid + IMPULSE_BYTES * (double)model->body_count) +
            (double)model->wall_count * WALL_BYTES + sb_room_ghosts(scene, model) * GHOST_BYTES +
-           (sb_scene_nested(scene) ? sb_grid_bytes(scene) : 0) + tension_bytes(scene, model);
+           (sb_scene_nested(scene) ? sb_grid_bytes(scene) : 0) + tension_bytes(scene, model) +
+           FRAME_BYTES * count_drawn(scene, model) * (MOST_WAITING + 3);
 }
 
 sb_status sb_room_check(const sb_scene *scene, const sb_model *model, sb_error *error)

@@ -68,8 +68,7 @@ int sb_frame_add_foam(sb_frame *frame, size_t count);
    out. */
 bool sb_frame_add_density_error(sb_frame *frame);
 /* Makes room for more particles at the end, which the caller fills but for the density error, which is 0, in a frame
-   that is not published yet. Returns 0, or
-   -1 if memory runs out: the frame is then unchanged. */
+   that is not published yet. Returns 0, or -1 if memory runs out: the frame is then unchanged. */
 int sb_frame_extend(sb_frame *frame, size_t more);
 /* sb_frame_retain adds a reference and returns the frame. sb_frame_release removes one and frees the frame with the
    last. NULL has no effect. */

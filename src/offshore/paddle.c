@@ -129,11 +129,17 @@ static border border_of(const sb_offshore *o, int side)
                     .outwards = upper ? (ptrdiff_t)across : -(ptrdiff_t)across};
 }
 
+/* A grid with one row has nothing beyond its sides along y. */
+static int side_count(const sb_offshore *offshore)
+{
+    return sb_offshore_flat(offshore) ? SB_OFFSHORE_Y_MIN : SB_OFFSHORE_SIDES;
+}
+
 /* The equation has div(grad P / h) at the first cells, which the side's face is a part of. */
 void sb_offshore_paddle_system(const sb_offshore *offshore, const sb_offshore_level *level, const double *scale,
                                double *residual)
 {
-    for (int s = 0; s < SB_OFFSHORE_SIDES; s++) {
+    for (int s = 0; s < side_count(offshore); s++) {
         if (offshore->options.side[s] != SB_OFFSHORE_PADDLE || offshore->push.rate == 0) continue;
         const border b = border_of(offshore, s);
         for (size_t k = 0; k < b.count; k++) {
@@ -149,7 +155,7 @@ void sb_offshore_paddle_system(const sb_offshore *offshore, const sb_offshore_le
 void sb_offshore_paddle_beyond(const sb_offshore *offshore, const sb_offshore_level *level, const double *scale,
                                double *pressure)
 {
-    for (int s = 0; s < SB_OFFSHORE_SIDES; s++) {
+    for (int s = 0; s < side_count(offshore); s++) {
         if (offshore->options.side[s] != SB_OFFSHORE_PADDLE || offshore->push.rate == 0) continue;
         const border b = border_of(offshore, s);
         for (size_t k = 0; k < b.count; k++) {

@@ -80,12 +80,23 @@ static bool is_far(const struct painting *p, const double at[2])
     return at[0] < -wide || at[0] > 2 * wide || at[1] < -tall || at[1] > 2 * tall;
 }
 
+/* Whether a line lies beyond one side of the picture. */
+static bool is_beyond(const struct painting *p, double end[2][2])
+{
+    const double size[2] = {p->image->width, p->image->height}, margin = 4 * p->unit;
+    for (int k = 0; k < 2; k++)
+        if ((end[0][k] < -margin && end[1][k] < -margin) ||
+            (end[0][k] > size[k] + margin && end[1][k] > size[k] + margin))
+            return true;
+    return false;
+}
+
 static void paint_outlines(const struct painting *p)
 {
     for (size_t i = 0; i < p->slicer->section.count; i++) {
         double end[2][2];
         if (!sb_section_project(&p->slicer->section.pieces[i], &p->to_pixels, end)) continue;
-        if (is_far(p, end[0]) && is_far(p, end[1])) continue;
+        if (is_beyond(p, end)) continue;
         sb_paint_line(p->image, end[0][0], end[0][1], end[1][0], end[1][1], 1.3 * p->unit, outline_ink, 0.9);
     }
 }

@@ -205,7 +205,9 @@ static void put_water(FILE *out, const sb_scene *scene)
     if (scene->wave.kind != SB_INITIAL_NONE) {
         begin(out, "Initial wave");
         static const char *const kinds[] = {"none", "solitary", "standing", "regular", "sum of waves"};
-        sb_html_put(out, "%s, height %g m, depth %g m", kinds[scene->wave.kind], scene->wave.height, scene->wave.depth);
+        sb_html_put(out, "%s, ", kinds[scene->wave.kind]);
+        if (scene->wave.kind != SB_INITIAL_COMPONENTS) sb_html_put(out, "height %g m, ", scene->wave.height);
+        sb_html_put(out, "depth %g m", scene->wave.depth);
         finish(out);
     }
     begin(out, "Fluid");

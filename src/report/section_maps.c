@@ -56,7 +56,8 @@ static bool put_row(FILE *out, const sb_report_page *page, const sb_map_row *row
 static size_t put_grid_rows(FILE *out, const sb_report_page *page, const marks *all)
 {
     size_t count = 0;
-    if (!page->run->has_scene || !sb_scene_nested(&page->run->scene)) return 0;
+    const sb_scene *scene = page->run->has_scene ? &page->run->scene : NULL;
+    if (!scene || !sb_scene_nested(scene) || !scene->offshore.maps) return 0;
     fputs("<h3>Depth-averaged water beside the particles</h3>\n<div class=\"maps\">", out);
     for (const sb_map_row *row = sb_map_rows; row->name; row++) count += put_row(out, page, row, row->grid_name, all);
     fputs("</div>\n", out);

@@ -10,7 +10,7 @@ static const double NARROWEST = 3;
 /* In spacings: height of the rows of a flap. */
 static const double ROW = 2;
 
-enum { PLATES_MAX = 500 };
+enum { PLATES_MAX = 100 };
 
 static const sb_body *body_of(const sb_scene *scene, const sb_wavemaker_use *use)
 {

@@ -194,6 +194,7 @@ static sb_status finish_eurotop(sb_reader *reader, const sb_yaml *map, sb_flow_p
     const sb_sea *sea = &reader->scene->sea;
     if (!block) return SB_OK;
     if (!sb_yaml_child(block, "crest")) e->crest = plane->z_min;
+    if (sb_yaml_child(block, "height") && e->height == 0) return SB_OK; /* not compared */
     if (!(e->height > 0))
         return sb_reader_fail(reader, map, "eurotop",
                               "height is missing, expected H_m0 of the incoming waves in metres");

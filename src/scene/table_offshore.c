@@ -145,6 +145,9 @@ static sb_status finish_paddle(sb_reader *reader, const sb_yaml *map, sb_offshor
     if (side == SB_SIDES && o->has_paddle)
         return sb_reader_fail(reader, map, "paddle", "no side is moved by it, expected sides: {x_min: paddle}");
     if (side == SB_SIDES) return SB_OK;
+    if (reader->scene->dimensions == 2 && side >= SB_Y_MIN)
+        return sb_reader_fail(reader, map, "sides", "%s: has no effect in 2D, expected a paddle at x_min or x_max",
+                              sb_side_names[side]);
     if (!o->has_paddle)
         return sb_reader_fail(reader, map, "sides",
                               "%s: paddle, but there is no block offshore.paddle, expected its law, such as paddle: "

@@ -52,7 +52,7 @@ static void take_publisher(sb_message_reader *in, sb_status_message *message)
     message->decimation = sb_reader_int32(in);
     sb_reader_doubles(in, message->region_min, 3);
     sb_reader_doubles(in, message->region_max, 3);
-    message->stage_count = sb_reader_count(in, SB_STREAM_STAGES, "it has more than 16 stages");
+    message->stage_count = sb_reader_count(in, SB_STREAM_STAGES, "it has more than 32 stages");
     for (int32_t i = 0; i < message->stage_count; i++) sb_reader_name(in, message->stages[i]);
     sb_reader_doubles(in, message->stage_seconds, (size_t)message->stage_count);
 }

@@ -19,7 +19,7 @@ enum {
     SB_STREAM_ROWS = 350,          /* bodies or gauges that fit into one message, with the longest names */
     SB_STREAM_PIECE = 59000,       /* bytes of the scene that fit into one message */
     SB_STREAM_SCENE_MAX = 1 << 27, /* bytes of an encoded scene */
-    SB_STREAM_STAGES = 16,         /* stages of a time step */
+    SB_STREAM_STAGES = 32,         /* stages of a time step: SB_STAGES_MAX */
     SB_STREAM_NAME = 64            /* bytes of a name with its terminating zero */
 };
 

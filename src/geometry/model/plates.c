@@ -109,8 +109,9 @@ int sb_model_share_plates(const sb_scene *scene, sb_model *model, size_t body)
     const size_t begin = first->begin, count = first->count;
     sb_plate_row row;
     if (first->plates == 0 || sb_scene_plates(scene, &scene->wavemakers[first->wavemaker], &row) == 0) return 0;
-    sb_vec3 *position = sb_alloc(2 * count, sizeof *position), *normal = position + count;
+    sb_vec3 *position = sb_alloc(2 * count, sizeof *position);
     if (!position) return -1;
+    sb_vec3 *normal = position + count;
     memcpy(position, model->wall_position + begin, count * sizeof *position);
     memcpy(normal, model->wall_normal + begin, count * sizeof *normal);
     size_t at = begin;

@@ -132,7 +132,7 @@ sb_status sb_model_warn_strokes(const sb_scene *scene, const sb_model_space *spa
         for (size_t b = 0; b < model->body_count && status == SB_OK; b++) {
             const sb_model_body *body = &model->bodies[b];
             if (body->wavemaker != (int)w) continue;
-            const double travel[2] = {whole.most, whole.least};
+            const double share = 1 - body->held, travel[2] = {share * whole.most, share * whole.least};
             for (int way = 0; way < 2 && status == SB_OK; way++)
                 if (fabs(travel[way]) > model->spacing)
                     status = check_way(scene, space, body, maker->direction, travel[way], model, error);

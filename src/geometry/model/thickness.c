@@ -115,7 +115,9 @@ static sb_status refuse(const sb_scene *scene, const char *name, double thick, s
 sb_status sb_model_check_thickness(const sb_scene *scene, const sb_model_space *space, const sb_model *model,
                                    sb_model_body *body, sb_error *error)
 {
-    if (body->held != 0) return SB_OK; /* a row of a flap */
+    sb_plate_row row = {0};
+    if (body->plates > 0 && sb_scene_plates(scene, &scene->wavemakers[body->wavemaker], &row) > 0 && row.axis == 2)
+        return SB_OK; /* a row of a flap */
     if (body->role != SB_ROLE_SOLID || body->mesh.open_surface || body->mesh.triangle_count == 0) return SB_OK;
     thickness found = {.limit = support_radius(scene)};
     sb_solid *solid = NULL;

@@ -79,7 +79,7 @@ static sb_foam_particle new_particle(const sb_sim *sim, size_t i, uint32_t k)
     const sb_f4 aside = (axis[0] * sb_splat(cosf(angle)) + axis[1] * sb_splat(sinf(angle))) * sb_splat(radius);
     const sb_f4 way = aside * sb_splat(0.5f * sim->constant.spacing) + v * sb_splat(dt * (float)chance[WAY]);
     sb_foam_particle made = {.kind = SB_FOAM_FLOATS, .id = sim->foam->next_id + sim->work.emission[i] + k};
-    made.position = sb_foam_displaced(sim, sim->state.position[i], way);
+    made.position = sb_space_wrap(&sim->space, sb_foam_displaced(sim, sim->state.position[i], way));
     made.velocity = v + aside * sb_splat(0.5f * law->trapped.to);
     made.velocity[3] = law->lifetime * (float)(1 + 2 * chance[LIFE]) / 3;
     return made;

@@ -90,7 +90,7 @@ sb_status sb_sim_check_start(const sb_sim *sim, sb_error *error)
     return sb_fail(
         error, SB_BAD_INPUT,
         "%.500s: the first time step would be %g s, expected at least %.3g s: numerics.time_step_max, cfl or "
-        "time_step_factor is too small, or gravity, a viscosity or the speed of sound is too large",
+        "time_step_factor is too small, or gravity, a viscosity, surface_tension or the speed of sound is too large",
         sim->scene->path ? sim->scene->path : "the scene", dt, least);
 }
 

@@ -71,8 +71,8 @@ int sb_plates_measure(sb_sim *sim, sb_moving_body *moving)
     bool enough = sums != NULL;
 #pragma omp parallel reduction(&& : enough)
     {
-        sb_exact *own = enough ? sb_alloc(count, sizeof *own) : NULL;
-        enough = enough && own;
+        sb_exact *own = sums ? sb_alloc(count, sizeof *own) : NULL;
+        enough = own != NULL;
 #pragma omp for schedule(static) nowait
         for (size_t i = 0; i < n; i++)
             if (own) add(moving, sb_space_position(&sim->space, sim->state.position[i]), width, repeats, own);

@@ -160,6 +160,8 @@ sb_status sb_stage_boundary(sb_sim *sim, sb_error *error)
 {
     (void)error;
     const sums_of of = constants_of(sim);
+    sb_boundary *all = &sim->walls.boundary;
+    for (size_t k = 0; k < all->count; k++) all->rate[k] = all->load[k] = 0; /* those beyond the domain have none */
     for (uint32_t s = 0; s < SB_WALL_SETS; s++) {
         const sb_wall_set *set = &sim->walls.set[s];
         const size_t cells = set->count > 0 ? set->cells.count : 0;

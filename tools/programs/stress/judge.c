@@ -72,7 +72,8 @@ static void judge_count(sb_judged *judged)
     const double first = sb_outcome_number_in(o, "energy_start", "mass_kg");
     const double last = sb_outcome_number_in(o, "energy_end", "mass_kg");
     if (!(all > 0 && first > 0)) return;
-    sb_require(judged, lost == 0, "%g particles lost", lost);
+    sb_require(judged, lost <= judged->trial->may_lose * all, "%g particles lost", lost);
+    if (lost > 0) sb_note(judged, "%g particles lost", lost);
     /* Particles that left before t = 0 are in neither mass, but the number at t = 0 must be whole. */
     const double now = all - left - lost, began = last > 0 ? now * first / last : now;
     sb_require(judged, (now > 0) == (last > 0) && fabs(began - round(began)) < 1e-6 * all && began < all + 0.5,

@@ -28,6 +28,7 @@ typedef struct sb_trial {
     size_t setting_count;
     const sb_drive *drive; /* of a driven trial */
     double number;         /* parameter of the drive */
+    double may_lose;       /* share of the particles that may pass walls; 0: none */
     unsigned ends;         /* bits: how it may end; initially SB_ENDS_WELL */
     double time_limit;     /* s; after it the trial counts as hung and is killed */
     double stop_after;     /* s until SIGTERM is sent; 0: never */
