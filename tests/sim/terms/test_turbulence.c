@@ -228,7 +228,7 @@ static void it_costs_nothing_when_off(void **state)
         tank t;
         tank_make(&t, 2, 0.1, sb_vec(1, 0, 1), 0.5, 0.5, 0.1);
         t.scene.numerics.stress_memory = 0; /* needs gravity, and memory of its own */
-        t.scene.fluid.viscosity = 0; /* on or off, without the memory for the walls' shear */
+        t.scene.fluid.viscosity = 0;        /* on or off, without the memory for the walls' shear */
         if (on) turn_on(&t);
         sb_sim *sim = tank_sim(&t);
         assert_non_null(sim);

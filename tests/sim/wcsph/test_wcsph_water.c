@@ -1,4 +1,4 @@
-/* Water by wcsph: it rests, bears its weight, and collapses as water of the implicit solvers does. */
+/* Water by wcsph: it rests, its weight is on the walls, and it collapses as water of the implicit solvers does. */
 #include "check.h"
 #include "sim/tank.h"
 

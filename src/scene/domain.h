@@ -1,0 +1,17 @@
+/* The domain of a scene and its sides. */
+#ifndef SB_SCENE_DOMAIN_H
+#define SB_SCENE_DOMAIN_H
+
+#include "base/vec.h"
+
+enum { SB_NAME_MAX = 64 };
+
+typedef enum sb_side_kind { SB_SIDE_WALL, SB_SIDE_OPEN, SB_SIDE_PERIODIC, SB_SIDE_SEA } sb_side_kind;
+enum { SB_X_MIN, SB_X_MAX, SB_Y_MIN, SB_Y_MAX, SB_Z_MIN, SB_Z_MAX, SB_SIDES };
+
+typedef struct sb_domain {
+    sb_vec3 min, max;            /* m */
+    sb_side_kind side[SB_SIDES]; /* periodic: pairs along x or y; sea: not along z */
+} sb_domain;
+
+#endif
