@@ -243,7 +243,7 @@ static void corrected_rates_are_exact_for_linear_flows(void **state)
     tank t;
     tank_make(&t, 2, 0.05, sb_vec(1, 0, 1), 1, 0.8, 0.2);
     tank_use(&t, SB_PRESET_WEN);
-    tank_repeat(&t, 0); /* walls above and below, out of reach of the middle */
+    tank_repeat(&t, 0); /* walls above and below, farther from the middle than the support radius */
     t.scene.numerics.density_diffusion = 0;
     sb_sim *sim = tank_sim(&t);
     assert_non_null(sim);
