@@ -131,6 +131,20 @@ const sb_case sb_case_wall_pressure = {
     .evaluate = evaluate,
     .plot = draw};
 
+const sb_case sb_case_wall_pressure_gate = {
+    .name = "wall-pressure-gate",
+    .title = "Wall pressures of a dam break, a vertical slice, with a gate",
+    .targets = TARGETS,
+    .method =
+        "As in the vertical slice, with a gate that opens upwards at 2 m/s, a speed that laboratories use (0.2 to "
+        "2.5 m/s:\nJ. Mar. Sci. Eng. 9 (2021) 67). The speed in this experiment is not known.",
+    .scene = "wall-pressure/slice-gate.yaml",
+    .headline = "S2 first peak",
+    .full = {{.resolution = 0.012}, {.resolution = 0.006}, {.resolution = 0.003, .judged = true, .seeds = 3}},
+    .quick = {{.resolution = 0.006, .judged = true}},
+    .evaluate = evaluate,
+    .plot = draw};
+
 const sb_case sb_case_wall_pressure_3d = {
     .name = "wall-pressure-3d",
     .title = "Wall pressures of a dam break, the whole tank",

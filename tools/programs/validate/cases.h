@@ -18,7 +18,10 @@
     ROW(front_martin_moyce)         \
     ROW(front_martin_moyce_small)   \
     ROW(front_koshizuka)            \
+    ROW(front_etsin_gate)           \
+    ROW(front_koshizuka_gate)       \
     ROW(wall_pressure)              \
+    ROW(wall_pressure_gate)         \
     ROW(wall_pressure_3d)           \
     ROW(column)                     \
     ROW(island)                     \
