@@ -68,8 +68,21 @@ static void test_stopped_run_is_resumed(void **state)
     assert_int_equal(fclose(arguments), 0);
 }
 
+static void test_folder_of_report_is_relative_to_the_present_one(void **state)
+{
+    (void)state;
+    sb_common_options options = {.report = "some/folder"};
+    sb_store store = {.options = &options};
+    assert_int_equal(sb_store_report(&store, NULL, NULL), SB_OK);
+    assert_string_equal(store.report, "./some/folder");
+    options.report = "/some/folder";
+    assert_int_equal(sb_store_report(&store, NULL, NULL), SB_OK);
+    assert_string_equal(store.report, "/some/folder");
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_stopped_run_is_resumed)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_stopped_run_is_resumed),
+                                       cmocka_unit_test(test_folder_of_report_is_relative_to_the_present_one)};
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -14,7 +14,8 @@ sb_status sb_store_report(sb_store *store, const char *below, sb_error *error)
 {
     const char *given = store->options->report;
     if (!given && below) return sb_path_join(store->report, store->out, below, error);
-    return sb_path_join(store->report, "", given ? given : SB_SOURCE_DIR "/docs/results", error);
+    if (!given) given = SB_SOURCE_DIR "/docs/results";
+    return sb_path_join(store->report, given[0] == '/' ? "" : ".", given, error);
 }
 
 sb_status sb_store_open(sb_store *store, const sb_common_options *options, const char *out, const char *assets,
