@@ -48,18 +48,16 @@ static void figure_gauge(const sb_case_run *run, const char *gauge, sb_figures *
     for (int n = 0; n < JUDGED_HARMONICS; n++) largest = fmax(largest, lab.amplitude[n]);
     snprintf(quantity, sizeof quantity, "%s, height", gauge);
     if (is_judged(gauge))
-        sb_figure_share(figures, quantity, "mm", 1e3 * lab.height, 1e3 * height, 1e3 * lab.height, 10,
-                        "crest minus trough");
+        sb_figure_share(figures, quantity, "mm", 1e3 * lab.height, 1e3 * height, 1e3 * lab.height, 10, "%s", "");
     else
-        sb_figure_report(figures, quantity, "mm", 1e3 * lab.height, 1e3 * height, "not judged: see the method");
+        sb_figure_report(figures, quantity, "mm", 1e3 * lab.height, 1e3 * height, "%s", "");
     for (int n = 0; n < JUDGED_HARMONICS; n++) {
         snprintf(quantity, sizeof quantity, "%s, harmonic %d", gauge, n + 1);
         if (is_judged(gauge))
             sb_figure_share(figures, quantity, "mm", 1e3 * lab.amplitude[n], 1e3 * fit.amplitude[n], 1e3 * largest, 12,
-                            "relative to the largest of the three, %.3g mm", 1e3 * largest);
+                            "%s", "");
         else
-            sb_figure_report(figures, quantity, "mm", 1e3 * lab.amplitude[n], 1e3 * fit.amplitude[n],
-                             "by least squares");
+            sb_figure_report(figures, quantity, "mm", 1e3 * lab.amplitude[n], 1e3 * fit.amplitude[n], "%s", "");
     }
 }
 
@@ -104,7 +102,8 @@ const sb_case sb_case_bar = {
         "in 0.4 m "
         "of water. The\namplitudes of the last ten periods of the records are compared with those of the last five of "
         "the run; "
-        "no clock is needed, no\nfilter. Gauge a05 reads 7 % less than a04 on the same flat bed, and a02 stands half a "
+        "no clock is needed, no\nfilter. Heights are crest minus trough of each period. Gauge a05 reads 7 % less than "
+        "a04 on the same flat bed, and a02 stands half a "
         "wavelength from the paddle: both are only\nreported. Waves leave through a sponge from 24 m on.",
     .scene = "../scenes/bar.yaml",
     .headline = "a15, harmonic 2",
