@@ -1,15 +1,17 @@
 /* Mean rate of overtopping by the formulas of EurOtop 2018, mean value approach: Van der Meer et al., Manual on wave
-   overtopping of sea defences and related structures. Rates in m^2/s: m^3/s per metre of the structure. */
+   overtopping of sea defences and related structures. Rates in m^2/s: m^3/s per metre of the structure. Coefficients
+   and numbers of equations are as in a public implementation that cites the manual (github.com/Sander-w/breakwater,
+   core/overtopping.py); the manual was not read. */
 #ifndef SB_PHYSICS_EUROTOP_H
 #define SB_PHYSICS_EUROTOP_H
 
-/* A vertical wall in waves that do not break on a foreshore: q/sqrt(g H^3) = 0.047 exp(-(2.35 R/H)^1.3). height: H_m0
-   of the incoming waves, m; freeboard: of the crest above the still level, R >= 0, m. */
+/* A vertical wall without a foreshore that changes the waves (eq. 7.1): q/sqrt(g H^3) = 0.047 exp(-(2.35 R/H)^1.3).
+   height: H_m0 of the incoming waves, m; freeboard: of the crest above the still level, R >= 0, m. */
 double sb_eurotop_vertical(double height, double freeboard, double gravity);
 
-/* A smooth slope without a berm in waves that come head-on: q/sqrt(g H^3) is the smaller of 0.023/sqrt(s) x exp(-(2.7
-   R/(x H))^1.3) and 0.09 exp(-(1.5 R/H)^1.3), with x = s/sqrt(2 pi H/(g T^2)). slope: s, its tangent, > 0; period:
-   T_m-1,0, s. */
+/* A smooth slope without a berm in waves that come head-on (eq. 5.10 with its upper limit): q/sqrt(g H^3) is the
+   smaller of 0.023/sqrt(s) x exp(-(2.7 R/(x H))^1.3) and 0.09 exp(-(1.5 R/H)^1.3), with x = s/sqrt(2 pi H/(g T^2)).
+   slope: s, its tangent, > 0; period: T_m-1,0, s. */
 double sb_eurotop_slope(double height, double freeboard, double slope, double period, double gravity);
 
 #endif

@@ -81,7 +81,7 @@ static sb_status create_absorber(const sb_wavemaker_parameters *parameters, void
 const sb_wavemaker sb_wavemaker_absorber = {
     .name = "absorber",
     .summary = "piston at rest that absorbs the waves that reach it",
-    .reference = "Biesel 1951; docs/wave-basin.md",
+    .reference = "Biesel 1951; docs/waves.md",
     .needs = SB_WM_DEPTH | SB_WM_PERIOD | SB_WM_TRAIN,
     .create = create_absorber,
     SB_WAVE_TRAIN_LAW,

@@ -78,6 +78,42 @@ static void test_choices_are_valid(void **state)
     }
 }
 
+/* The choice `wcsph` has the numerics of the preset `wen`; only some scenes have slow choices. */
+static void test_wcsph_is_the_preset_wen(void **state)
+{
+    (void)state;
+    const sb_store store = {.assets = SB_SOURCE_DIR "/assets/validation"};
+    size_t found = 0, without = 0;
+    for (const sb_subject *s = sb_subjects; s->name; s++) {
+        sb_contest c;
+        size_t before = found;
+        assert_int_equal(sb_contest_begin(&c, s, &store, &(sb_contest_selection){.seeds = 1, .few = true}, NULL),
+                         SB_OK);
+        for (size_t i = 0; i < c.entry_count; i++) {
+            if (!c.entries[i].choice || strcmp(c.entries[i].choice->name, "wcsph") != 0) continue;
+            sb_settings settings;
+            sb_scene made, preset;
+            char path[SB_PATH_MAX], resolution[48];
+            const sb_request *request = &c.trials[c.entries[i].first].request;
+            sb_request_settings(request, &settings);
+            snprintf(resolution, sizeof resolution, "%s", settings.resolution);
+            const char *const plain[] = {resolution};
+            assert_int_equal(sb_path_join(path, store.assets, s->of->scene, NULL), SB_OK);
+            assert_int_equal(sb_settings_scene(path, "default", settings.list, settings.count, &made, NULL), SB_OK);
+            assert_int_equal(sb_settings_scene(path, "wen", plain, 1, &preset, NULL), SB_OK);
+            made.numerics.preset = preset.numerics.preset;
+            assert_memory_equal(&made.numerics, &preset.numerics, sizeof made.numerics);
+            sb_scene_free(&made);
+            sb_scene_free(&preset);
+            found++;
+        }
+        without += found == before;
+        assert_true((found > before) == s->slow);
+        sb_contest_free(&c);
+    }
+    assert_true(found > 1 && without > 1);
+}
+
 static void test_subjects_have_spacings_and_errors(void **state)
 {
     (void)state;
@@ -210,6 +246,7 @@ int main(void)
         cmocka_unit_test(test_error_of_figure_is_absolute),
         cmocka_unit_test(test_errors_of_bodies_are_weighted_by_load),
         cmocka_unit_test(test_choices_are_valid),
+        cmocka_unit_test(test_wcsph_is_the_preset_wen),
         cmocka_unit_test(test_part_of_runs_can_be_selected),
         cmocka_unit_test(test_means_over_seeds_and_front),
         cmocka_unit_test(test_reference_is_mean_of_its_seeds),

@@ -15,6 +15,7 @@ typedef struct sb_plan {
     bool paper;                  /* the preset `paper` runs here too, with seed 1 */
     int seeds;                   /* numerics.seed = 1..seeds; 0 means 1 */
     const char *const *settings; /* more KEY=VALUE for `shorebreak run --set`, ended by NULL; NULL: none */
+    const char *variant;         /* what these settings make of the scene, "without absorption"; NULL: nothing else */
 } sb_plan;
 
 /* The table that was read last. It is kept because the next curve often comes from the same table. */

@@ -26,9 +26,10 @@ void sb_request_label(const sb_request *request, bool with_case, char label[96])
 {
     char seed[32] = "";
     if (request->seed != 1) snprintf(seed, sizeof seed, ", seed %d", request->seed);
-    snprintf(label, 96, "%s%s%.6g m%s%s%s%s", with_case ? request->of->name : "", with_case ? ", " : "",
-             request->plan->resolution, request->paper ? ", paper" : "", seed, request->change[0] ? ", " : "",
-             request->change);
+    const char *variant = request->plan->variant ? request->plan->variant : "";
+    snprintf(label, 96, "%s%s%.6g m%s%s%s%s%s%s", with_case ? request->of->name : "", with_case ? ", " : "",
+             request->plan->resolution, variant[0] ? ", " : "", variant, request->paper ? ", paper" : "", seed,
+             request->change[0] ? ", " : "", request->change);
 }
 
 sb_status sb_settings_scene(const char *path, const char *preset, const char *const *settings, size_t count,

@@ -58,7 +58,7 @@ sb_status sb_runner_run(const sb_runner *runner, size_t count, int jobs, sb_erro
         const int busy = poll_all(runner, all, jobs, &idle, &status, error);
         if (sb_stop_signal() || status != SB_OK) i = count;
         if (i == count && !busy) break;
-        if (i < count && runner->skip && runner->skip(runner->user, i))
+        if (i < count && idle && runner->skip && runner->skip(runner->user, i)) /* it reads a scene: not at each turn */
             i++;
         else if (i < count && idle)
             status = begin(runner, i++, idle, error);

@@ -34,6 +34,13 @@ const sb_choice sb_choices[] = {
     {.name = "no artificial viscosity", .fixed = {"numerics.artificial_viscosity=0"}},
     {.name = "artificial viscosity x 4", .key = "artificial_viscosity", .factor = 4},
     {.name = "no settling", .fixed = {"numerics.settle_steps=0"}},
+    /* What the preset `wen` changes: a choice has the preset `default` or `paper`. */
+    {.name = "wcsph", .quick = true, .slow = true,
+     .fixed = {"numerics.solver=wcsph", "numerics.support=3", "numerics.kernel_correction=cspm",
+               "numerics.density=summed", "numerics.cfl=0.3", "numerics.stress_correction=0",
+               "numerics.stress_memory=0", "numerics.density_diffusion=0.1", "numerics.artificial_viscosity=0.01",
+               "numerics.walls=dynamic", "numerics.wall_shear=none", "numerics.turbulence=sps",
+               "numerics.wall_spacing=1", "numerics.jitter=0", "numerics.settle_steps=0"}},
     {.name = NULL},
 };
 /* clang-format on */

@@ -4,12 +4,13 @@
 
 #include "scene/scene.h"
 
-enum { SB_CHOICE_FIXED = 3, SB_CHOICE_TEXT = 64 };
+enum { SB_CHOICE_FIXED = 16, SB_CHOICE_TEXT = 64 };
 
 typedef struct sb_choice {
     const char *name;                   /* NULL ends the table; stable */
     bool paper;                         /* preset `paper` instead of `default` */
     bool quick;                         /* part of the quick forms */
+    bool slow;                          /* takes many times as long: only for subjects with few steps */
     const char *fixed[SB_CHOICE_FIXED]; /* KEY=VALUE */
     const char *key;                    /* of the sensitivity study's table of defaults; NULL: none */
     double factor;                      /* of that default */

@@ -86,7 +86,7 @@ sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_st
     if (reference > 0 && any) add(c, NULL, reference, selection, &defaults);
     for (size_t i = 0; spacings[i] > 0; i++)
         for (const sb_choice *choice = sb_choices; choice->name && is_selected(selection, spacings, i); choice++)
-            if (choice->quick || !(selection->quick || selection->few))
+            if ((choice->quick || !(selection->quick || selection->few)) && (!choice->slow || subject->slow))
                 add(c, choice, spacings[i], selection, &defaults);
     return SB_OK;
 }

@@ -7,7 +7,7 @@
 #include "statistics.h"
 #include "subject.h"
 
-enum { SB_ENTRY_SETTINGS = 10, SB_ENTRY_SEEDS = 9, SB_REFERENCE_SEEDS = 2 };
+enum { SB_ENTRY_SETTINGS = 24, SB_ENTRY_SEEDS = 9, SB_REFERENCE_SEEDS = 2 };
 
 /* One choice at one spacing. */
 typedef struct sb_entry {

@@ -22,6 +22,7 @@ typedef struct sb_subject {
     double full[SB_SUBJECT_SPACINGS + 1], quick[SB_SUBJECT_SPACINGS + 1]; /* m, ended by 0 */
     double full_reference, quick_reference;         /* m, spacing of the reference run; 0: figures have references */
     const char *const *settings;                    /* of all its runs; NULL: none */
+    bool slow;                                      /* slow choices are affordable */
     sb_error_measure errors[SB_SUBJECT_ERRORS + 1]; /* the first is plotted and defines the front */
 } sb_subject;
 

@@ -25,7 +25,28 @@
     ROW(wall_pressure_3d)           \
     ROW(column)                     \
     ROW(island)                     \
-    ROW(energy)
+    ROW(energy)                     \
+    ROW(regular_half)               \
+    ROW(regular_low)                \
+    ROW(regular_one)                \
+    ROW(regular_fine)               \
+    ROW(regular_two)                \
+    ROW(regular_three)              \
+    ROW(regular_cnoidal)            \
+    ROW(paddle_long)                \
+    ROW(paddle_middle)              \
+    ROW(paddle_short)               \
+    ROW(paddle_deep)                \
+    ROW(sponge_short)               \
+    ROW(sponge_long)                \
+    ROW(wave_basin)                 \
+    ROW(cylinder_a)                 \
+    ROW(cylinder_b)                 \
+    ROW(cylinder_chen)              \
+    ROW(bar)                        \
+    ROW(shoaling)                   \
+    ROW(breakwater)                 \
+    ROW(jonswap)
 /* clang-format on */
 
 #define SB_CASE_DECLARE(name) extern const sb_case sb_case_##name;

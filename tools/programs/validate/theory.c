@@ -37,3 +37,14 @@ double sb_theory_decay(double viscosity, double k)
 {
     return 2 * viscosity * k * k;
 }
+
+sb_cylinder_load sb_theory_cylinder(double height, double number, double depth, double radius, double density,
+                                    double gravity)
+{
+    const double ka = number * radius, kd = number * depth;
+    const double j = j0(ka) - j1(ka) / ka, y = y0(ka) - y1(ka) / ka; /* derivatives of J1 and Y1 */
+    const double scale = 2 * density * gravity * height / (number * number * hypot(j, y));
+    return (sb_cylinder_load){.force = scale * tanh(kd),
+                              .moment = scale / number * (kd * sinh(kd) - cosh(kd) + 1) / cosh(kd),
+                              .lead = atan2(y, j)};
+}

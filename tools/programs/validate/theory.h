@@ -20,4 +20,13 @@ double sb_theory_standing_shift(double kh, double steepness);
    irrotational flow alone: 2 nu k^2 at any depth (Lamb 1932, art. 348). */
 double sb_theory_decay(double viscosity, double k);
 
+/* Linear diffraction of waves by a vertical cylinder that stands on the bed [MacCamy and Fuchs 1954]. */
+typedef struct sb_cylinder_load {
+    double force, moment; /* N, amplitude; N m about the bed */
+    double lead;          /* rad, of the force before the crest of the undisturbed wave at the axis */
+} sb_cylinder_load;
+/* height: m, crest to trough; number: 1/m; the rest in SI units. */
+sb_cylinder_load sb_theory_cylinder(double height, double number, double depth, double radius, double density,
+                                    double gravity);
+
 #endif

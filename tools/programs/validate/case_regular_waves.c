@@ -1,0 +1,187 @@
+/* Regular waves in flumes of twelve wavelengths: height, loss of height and wavelength. One scene each. */
+#include "cases.h"
+#include "physics/cnoidal.h"
+#include "physics/dispersion.h"
+#include "wave_fit.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { WINDOW = 4 }; /* periods, the last ones of the run */
+
+/* The bars of a case; NaN: reported. */
+typedef struct bars {
+    double height, loss, length; /* % */
+} bars;
+
+typedef struct train {
+    const sb_wavemaker_parameters *law;
+    double linear;       /* m, wavelength of linear theory, in which places are given */
+    double first, last;  /* s, the window */
+    double height, mean; /* m, means over the gauges of height and elevation */
+    double first_height; /* m, at two wavelengths */
+    double second;       /* amplitude of the second harmonic over the first, there */
+    double loss, length; /* %, over ten wavelengths; m */
+} train;
+
+/* The slope of ln H over x gives the loss; the slope of the phase of the first harmonic over x is the wave number. The
+   phases are taken relative to linear theory, and unrolled from gauge to gauge. */
+static void follow(const sb_case_run *run, train *w, sb_curve *heights)
+{
+    const sb_measure_settings *measure = &run->scene->measure;
+    sb_curve *logarithm = sb_curve_new(run->made), *phase = sb_curve_new(run->made);
+    const double number = 2 * M_PI / w->linear;
+    double a, slope, before = 0;
+    for (size_t g = 0; g < measure->gauge_count; g++) {
+        const double x = measure->gauges[g].x;
+        const sb_curve *eta = sb_wave_fit_gauge(run, measure->gauges[g].name);
+        const sb_wave_fit fit = sb_wave_fit_of(eta, w->law->period, w->first, w->last);
+        const double height = sb_wave_fit_height(eta, w->law->period, w->first, w->last);
+        const double turned = fit.phase[0] - number * x;
+        before = g ? before + sb_wave_fit_turn(turned, before) : turned;
+        sb_curve_add(phase, x, before);
+        sb_curve_add(logarithm, x, log(height));
+        sb_curve_add(heights, x / w->linear, height / w->law->height);
+        w->height += height / (double)measure->gauge_count;
+        w->mean += fit.mean / (double)measure->gauge_count;
+        if (g == 0) {
+            w->first_height = height;
+            w->second = fit.amplitude[1] / fit.amplitude[0];
+        }
+    }
+    w->loss = w->length = (double)NAN;
+    if (sb_curve_line(logarithm, 0, HUGE_VAL, &a, &slope)) w->loss = 100 * (1 - exp(10 * w->linear * slope));
+    if (sb_curve_line(phase, 0, HUGE_VAL, &a, &slope)) w->length = 2 * M_PI / (number + slope);
+}
+
+static train train_of(const sb_case_run *run, sb_curve *heights)
+{
+    const sb_scene *scene = run->scene;
+    const sb_wavemaker_parameters *law = &scene->wavemakers[0].law;
+    train w = {.law = law,
+               .linear = 2 * M_PI / sb_wave_number(law->period, law->depth, scene->fluid.gravity),
+               .first = scene->duration - WINDOW * law->period,
+               .last = scene->duration};
+    follow(run, &w, heights);
+    return w;
+}
+
+/* A row that is judged, or only reported where the case has no bar. */
+static void figure(sb_figures *figures, const char *quantity, const char *unit, double reference, double value,
+                   double limit, const char *note)
+{
+    if (isnan(limit))
+        sb_figure_report(figures, quantity, unit, reference, value, "%s", note);
+    else
+        sb_figure_share(figures, quantity, unit, reference, value, reference, limit, "%s", note);
+}
+
+static void figure_length(const sb_case_run *run, const train *w, double limit, sb_figures *figures)
+{
+    const double gravity = run->scene->fluid.gravity, depth = w->law->depth + w->mean;
+    char note[SB_FIGURE_NOTE];
+    double reference = (double)NAN, current = 0;
+    sb_stokes stokes;
+    sb_cnoidal cnoidal;
+    sb_error why = {0};
+    if (sb_wave_fit_stokes(w->height, w->law->period, depth, gravity, &stokes, &current)) {
+        reference = stokes.length;
+        snprintf(note, sizeof note,
+                 "from the phases at all gauges; Stokes, fifth order, for their mean height %.4g m and level %+.2g m, "
+                 "with the return current of a closed flume, %.3g m/s; linear %.5g m",
+                 w->height, w->mean, current, w->linear);
+    } else if (sb_cnoidal_of_period(w->height, w->law->period, depth, gravity, &cnoidal, &why) == SB_OK) {
+        reference = cnoidal.length;
+        snprintf(
+            note, sizeof note,
+            "from the phases at all gauges; cnoidal, for their mean height %.4g m and level %+.2g m; linear %.5g m",
+            w->height, w->mean, w->linear);
+    } else {
+        snprintf(note, sizeof note, "from the phases at all gauges; no theory for a mean height of %.4g m", w->height);
+    }
+    figure(figures, "wavelength", "m", reference, w->length, limit, note);
+}
+
+static void evaluate(const sb_case_run *run, sb_figures *figures)
+{
+    const bars *limit = run->of->what;
+    const train w = train_of(run, sb_curve_new(run->made));
+    figure(figures, "height at two wavelengths", "m", w.law->height, w.first_height, limit->height,
+           "mean of crest minus trough in the last four periods");
+    if (isnan(limit->loss))
+        sb_figure_report(figures, "loss of height over ten wavelengths", "%", (double)NAN, w.loss,
+                         "line through the logarithms of the heights at %zu gauges", run->scene->measure.gauge_count);
+    else
+        sb_figure_below(figures, "loss of height over ten wavelengths", "%", w.loss, limit->loss,
+                        "line through the logarithms of the heights at %zu gauges", run->scene->measure.gauge_count);
+    figure_length(run, &w, limit->length, figures);
+    sb_figure_report(figures, "second harmonic over first, at two wavelengths", "", (double)NAN, w.second,
+                     "by least squares");
+    sb_figure_report(figures, "particles per height", "", (double)NAN, w.law->height / run->resolution, "as aimed at");
+}
+
+static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
+{
+    double x[] = {0, 12}, y[] = {1, 1};
+    sb_plot_panel(plot, "Wave height along the flume", "distance from the paddle (wavelengths)",
+                  "over the height aimed at");
+    sb_plot_range(plot, 0, 12.5, 0.6, 1.2);
+    sb_plot_points(plot, "no loss", 2, x, y);
+    for (size_t i = 0; i < count; i++) {
+        sb_curve *heights = sb_curve_new(runs[i].made);
+        train_of(&runs[i], heights);
+        sb_plot_run(plot, &runs[i], heights);
+    }
+    sb_plot_panel(plot, "Surface at two wavelengths", "time (periods)", "over the height aimed at");
+    for (size_t i = 0; i < count; i++) {
+        const sb_wavemaker_parameters *law = &runs[i].scene->wavemakers[0].law;
+        sb_curve *eta = sb_wave_fit_gauge(&runs[i], runs[i].scene->measure.gauges[0].name);
+        sb_curve_map(eta, 1 / law->period, 0, 1 / law->height, 0);
+        sb_plot_run(plot, &runs[i], eta);
+    }
+}
+
+#define METHOD                                                                                                         \
+    "Reference: the height aimed at, and Stokes' theory of fifth order (Fenton 1985) in a closed flume, where a "      \
+    "return "                                                                                                          \
+    "current\ncarries back what the waves carry forward. Gauges stand from 2 to 12 wavelengths from the paddle; the "  \
+    "last four periods\ncount. Loss: from the line through the logarithms of the heights. Wavelength: from the line "  \
+    "through the phases of the first\nharmonics. No filter, no time shift. The quick form has gauges from 2 to 3.9 "   \
+    "wavelengths, and one to eight particles per\nheight."
+
+/* The flume of a quick form ends after five wavelengths. */
+#define SHORT(top, periods)                                                                                            \
+    "domain.max=[500, " top "]", "duration=" periods,                                                                  \
+        "measure.gauges=[{name: g0200, x: 200}, {name: g0237, x: 237}, {name: g0280, x: 280}, {name: g0330, x: 330}, " \
+        "{name: g0390, x: 390}]",                                                                                      \
+        NULL
+static const char *const short_half[] = {SHORT("10", "141.3")}, *const short_low[] = {SHORT("20", "119.2")},
+                         *const short_one[] = {SHORT("24", "119.2")}, *const short_two[] = {SHORT("38", "122.3")},
+                         *const short_three[] = {SHORT("54", "128.4")}, *const short_cnoidal[] = {SHORT("13", "138.6")};
+
+#define FLUME(id, label, file, what_is, aims, height_bar, loss_bar, length_bar, fine, coarse, more)                    \
+    static const bars bars_##id = {height_bar, loss_bar, length_bar};                                                  \
+    const sb_case sb_case_regular_##id = {.name = "regular-waves-" label,                                              \
+                                          .title = "Regular waves over twelve wavelengths, " what_is,                  \
+                                          .targets = aims,                                                             \
+                                          .method = METHOD,                                                            \
+                                          .scene = "regular-waves/" file ".yaml",                                      \
+                                          .headline = "loss of height over ten wavelengths",                           \
+                                          .what = &bars_##id,                                                          \
+                                          .full = {{.resolution = fine, .judged = true}},                              \
+                                          .quick = {{.resolution = coarse, .judged = true, .settings = more}},         \
+                                          .evaluate = evaluate,                                                        \
+                                          .plot = plot};
+
+#define NONE ((double)NAN)
+#define AIMS(loss)                                                                                                     \
+    "height at two wavelengths: within 3 %; loss over ten wavelengths: at most " loss " %; wavelength: within 0.5 %"
+#define AIMS_SHORT "wavelength: within 0.5 %; height and loss: reported"
+
+FLUME(half, "kd0.5", "kd0.5", "kd 0.5, H/L 0.01", AIMS("5"), 3, 5, 0.5, 0.125, 0.5, short_half)
+FLUME(low, "kd1-low", "kd1-low", "kd 1, H/L 0.02", AIMS("5"), 3, 5, 0.5, 0.25, 1, short_low)
+FLUME(one, "kd1", "kd1", "kd 1, H/L 0.04", AIMS("5"), 3, 5, 0.5, 0.5, 1, short_one)
+FLUME(fine, "kd1-fine", "kd1", "kd 1, H/L 0.04, 16 particles per height", AIMS("2"), 3, 2, 0.5, 0.25, 0.5, short_one)
+FLUME(two, "kd2", "kd2", "kd 2, H/L 0.03", AIMS_SHORT, NONE, NONE, 0.5, 0.375, 1.5, short_two)
+FLUME(three, "kd3", "kd3", "kd 3, H/L 0.03", AIMS_SHORT, NONE, NONE, 0.5, 0.375, 1.5, short_three)
+FLUME(cnoidal, "cnoidal", "cnoidal", "cnoidal, H L^2/d^3 = 34.6", AIMS("5"), 3, 5, 0.5, 0.25, 0.5, short_cnoidal)

@@ -1,0 +1,46 @@
+/* Waves in the series of gauges: harmonics by least squares, crests and troughs, and theory for a closed flume. All
+   times in s, lengths in m, angles in rad. */
+#ifndef SB_VALIDATE_WAVE_FIT_H
+#define SB_VALIDATE_WAVE_FIT_H
+
+#include "case.h"
+#include "physics/reflection.h"
+#include "physics/stokes.h"
+
+enum { SB_FIT_HARMONICS = 4 };
+
+/* The harmonic n is amplitude[n - 1] cos(n omega t - phase[n - 1]). */
+typedef struct sb_wave_fit {
+    double mean;
+    double amplitude[SB_FIT_HARMONICS], phase[SB_FIT_HARMONICS];
+} sb_wave_fit;
+
+/* Fits the curve over first <= t <= last. All values are NaN if the points do not determine them. */
+sb_wave_fit sb_wave_fit_of(const sb_curve *curve, double period, double first, double last);
+/* The fitted series at t. */
+double sb_wave_fit_at(const sb_wave_fit *fit, double period, double t);
+
+/* Crest and trough: means over the whole periods of first..last of the highest and the lowest value in each. Waves with
+   several crests in a period count as one. NaN: no whole period with values. */
+typedef struct sb_wave_range {
+    double crest, trough;
+} sb_wave_range;
+sb_wave_range sb_wave_fit_range(const sb_curve *curve, double period, double first, double last);
+/* Crest minus trough. */
+double sb_wave_fit_height(const sb_curve *curve, double period, double first, double last);
+
+/* Splits the first harmonic at all gauges whose names begin with `prefix` by linear theory for the depth. */
+sb_split sb_wave_fit_split(const sb_case_run *run, const char *prefix, double period, double depth, double first,
+                           double last);
+
+/* The gauge's elevation above the still level, or an empty curve if the scene has no such gauge. */
+sb_curve *sb_wave_fit_gauge(const sb_case_run *run, const char *name);
+
+/* The Stokes wave of fifth order of a period in a closed flume, where no water is carried on average; current: the
+   uniform return current, m/s, negative. False: there is no such wave. */
+bool sb_wave_fit_stokes(double height, double period, double depth, double gravity, sb_stokes *wave, double *current);
+
+/* Difference of two angles in -pi..pi. */
+double sb_wave_fit_turn(double angle, double from);
+
+#endif
