@@ -147,20 +147,6 @@ static void column_table_has_peaks_from_the_arrival(void **state)
     expect_output("| impulse until 0.95 s, N s | 9."); /* 10 N x 0.95 s, and the peak */
 }
 
-static void island_table_has_crests_and_arrivals(void **state)
-{
-    (void)state;
-    write_file("lab.csv", "# source\ntime_s,WG1_mm,WG2_mm\n0.05,0,0\n1.00,150,0\n1.05,200,20\n1.10,100,60\n");
-    write_file("gauges.csv",
-               "time_s,gauge,eta_m,z_m\n0,WG1,0,0.78\n0,WG2,,\n0.9,WG1,0.11,0.89\n1,WG1,0.18,0.96\n1.2,WG1,0.1,0.88\n");
-    char command[2048];
-    snprintf(command, sizeof command, "cd '%s'; awk -f '%s/tools/programs/scenarios/island.awk' lab.csv gauges.csv",
-             tool_path("."), SB_SOURCE_DIR);
-    assert_int_equal(shell(command), 0);
-    expect_output("| WG1 | 0.200 → 0.180 | 1.05 → 1.00 | 1.00 → 0.90 |");
-    expect_output("| WG2 | 0.060 → dry | 1.10 → – | 1.10 → – |");
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -168,7 +154,6 @@ int main(void)
         cmocka_unit_test(wrong_names_and_factors_are_refused),
         cmocka_unit_test(compared_tables_have_values_and_rows_of_bodies),
         cmocka_unit_test(column_table_has_peaks_from_the_arrival),
-        cmocka_unit_test(island_table_has_crests_and_arrivals),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }
