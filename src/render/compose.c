@@ -96,14 +96,16 @@ static const char water[] = "vec3 normal_of(vec4 w) {\n"
                             "  return hazed(c, place);\n"
                             "}\n";
 
-/* Shallow water transmits the bed's light by exp(-thickness / clarity); refraction moves the bed. */
+/* Shallow water transmits the bed's light by exp(-thickness / clarity); refraction moves the bed. Water behind the bed
+   has no thickness: the exponential of a negative one overflows, and what has no share of the pixel would make it
+   black. */
 static const char shallow[] =
     "float clear_of(ivec2 p, vec4 w, vec4 k, float z) {\n"
-    "  float path = (z - w.x) * length(ray(p)), thick = k.y > 0.8 * thickest ? path : min(k.y, path);\n"
+    "  float path = max(z - w.x, 0.0) * length(ray(p)), thick = k.y > 0.8 * thickest ? path : min(k.y, path);\n"
     "  return solid > 0.5 ? 0.0 : 0.85 * exp(-thick / clarity);\n"
     "}\n"
     "vec3 bed_at(ivec2 p, vec4 w, vec4 k, float z, float open) {\n"
-    "  float thick = min(min(k.y, z - w.x), clarity);\n"
+    "  float thick = min(min(k.y, max(z - w.x, 0.0)), clarity);\n"
     "  ivec2 q = clamp(p + ivec2(w.zw * thick * 0.35 * pixels / w.x), ivec2(0), textureSize(depths, 0) - 1);\n"
     "  if (depth_at(q) < w.x || texelFetch(body_colors, q, 0).a < 0.25) q = p;\n"
     "  vec3 n = texelFetch(normals, q, 0).xyz, at = eye + ray(q) * depth_at(q);\n"

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Sizes in px of a picture that is 720 px high. */
-static const double WIDTH = 300, HEIGHT = 134, LEFT = 30, BOTTOM = 30, GAP = 10, LETTERS = 10.5;
+/* Sizes in px of a picture that is 720 px high. The scale bar with its label is below the plots. */
+static const double WIDTH = 300, HEIGHT = 134, LEFT = 30, BOTTOM = 72, GAP = 10, LETTERS = 10.5;
 static const double PAD_LEFT = 54, PAD_RIGHT = 26, PAD_TOP = 33, PAD_BOTTOM = 24;
 static const float ink[3] = {0.95f, 0.96f, 0.98f}, faint[3] = {0.62f, 0.67f, 0.73f}, dark[3] = {0.04f, 0.07f, 0.11f},
                    curve[3] = {1.0f, 0.72f, 0.22f};

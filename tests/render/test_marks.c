@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "render/inset.h"
 #include "render/labels.h"
+#include "render/marks.h"
 #include "render/paint.h"
 #include "render/samples.h"
 
@@ -65,13 +66,28 @@ static void boxes_are_cut_off(void **state)
 static double curve_at(const sb_image *image, int x)
 {
     double sum = 0, count = 0;
-    for (int y = 590; y < 664; y++) {
+    for (int y = 548; y < 622; y++) {
         const unsigned char *p = image->rgb + 3 * ((size_t)y * (size_t)image->width + (size_t)x);
         if (p[0] < 200 || p[2] > 110 || p[0] < p[1] + 40) continue;
         sum += y;
         count++;
     }
     return count > 0 ? sum / count : -1;
+}
+
+/* The highest row of a picture 1280 px x 720 px that the scale bar and its label touch. */
+static int scale_bar_top(void)
+{
+    const sb_camera_key key = {.eye = {0, -10, 0}, .target = {0, 0, 0}, .fov = 60};
+    const sb_view view = sb_view_create(&key, 1280.0 / 720, sb_vec(-9, -9, -9), sb_vec(9, 9, 9));
+    sb_image image = black(1280, 720);
+    assert_int_equal(sb_marks_scale(&image, &view, sb_vec(0, 0, 0), NULL), SB_OK);
+    int top = 720;
+    for (int y = 719; y >= 0; y--)
+        for (int x = 0; x < 1280; x++)
+            if (red(&image, x, y) > 0) top = y;
+    sb_image_free(&image);
+    return top;
 }
 
 /* The curve of v = 1000 t rises along the axes of 0 to 10 s and 0 to 10 kN, stops at the picture's time, and has gaps.
@@ -89,7 +105,7 @@ static void a_plot_shows_its_rows(void **state)
     const sb_inset_plot plot = {
         .title = "tank: Fx", .unit = "N", .time = 6, .rows = (const double(*)[2])rows, .count = ROWS};
     assert_int_equal(sb_inset_draw(&image, 0, &plot, NULL), SB_OK);
-    const double left = 30 + 54, right = 30 + 300 - 26, bottom = 720 - 30 - 24, top = 720 - 30 - 134 + 33;
+    const double left = 30 + 54, right = 30 + 300 - 26, bottom = 720 - 72 - 24, top = 720 - 72 - 134 + 33;
     for (double t = 0.5; t < 5.9; t += 0.5) {
         const double y = curve_at(&image, (int)(left + (right - left) * t / 10));
         if (t > 2.05 && t < 2.95) {
@@ -101,6 +117,13 @@ static void a_plot_shows_its_rows(void **state)
         if (fabs(y - expected) > 2) fail_msg("t = %g s: the curve is at row %g, expected %g", t, y, expected);
     }
     assert_true(curve_at(&image, (int)(left + (right - left) * 0.65)) < 0);
+    /* The plots leave the place of the scale bar, and that of the title. */
+    for (int slot = 1; slot < 4; slot++) assert_int_equal(sb_inset_draw(&image, (size_t)slot, &plot, NULL), SB_OK);
+    const int bar_top = scale_bar_top();
+    assert_true(bar_top > 600);
+    for (int y = 0; y < 720; y++)
+        for (int x = 0; x < 1280; x++)
+            if (y < 76 || y >= bar_top) assert_int_equal(red(&image, x, y), 0);
     /* No rows, and a picture that is too low, are no error. */
     const sb_inset_plot empty = {.title = "", .unit = "m", .time = 0};
     assert_int_equal(sb_inset_draw(&image, 3, &empty, NULL), SB_OK);

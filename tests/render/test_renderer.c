@@ -182,6 +182,30 @@ static void a_wall_hides_the_water_behind_it(void **state)
     clear_stage(&stage);
 }
 
+/* The water is 15 m behind the wall, whose pixels with the drop are mixtures: the depth of the water there is negative.
+ */
+static void a_drop_before_a_wall_does_not_show_the_water_behind_it(void **state)
+{
+    (void)state;
+    struct stage stage;
+    set_stage(&stage, sb_vec(0, 0, 0), HEIGHT);
+    add_wall(&stage, sb_vec(-3, -20, -3), sb_vec(3, -19.5, 3));
+    sb_frame *drop = water(stage.model.min, sb_vec(0, -21, 0), 1);
+    memcpy(stage.frame->position, drop->position, 3 * sizeof(float));
+    sb_image both = picture(&stage, stage.frame), alone = picture(&stage, drop);
+    sb_frame *none = water(stage.model.min, sb_vec(0, 0, 0), 0);
+    sb_image bare = picture(&stage, none);
+    const int x0 = WIDTH / 2 - 30, x1 = WIDTH / 2 + 30, y0 = HEIGHT / 2 - 30, y1 = HEIGHT / 2 + 30;
+    assert_true(differences(&alone, &bare, x0, y0, x1, y1, 4) > 4);
+    assert_int_equal(differences(&both, &alone, x0, y0, x1, y1, 4), 0);
+    sb_image_free(&both);
+    sb_image_free(&alone);
+    sb_image_free(&bare);
+    sb_frame_release(none);
+    sb_frame_release(drop);
+    clear_stage(&stage);
+}
+
 static void an_open_mesh_is_transparent_from_behind(void **state)
 {
     (void)state;
@@ -391,6 +415,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(water_is_drawn_at_its_position),
         cmocka_unit_test(a_wall_hides_the_water_behind_it),
+        cmocka_unit_test(a_drop_before_a_wall_does_not_show_the_water_behind_it),
         cmocka_unit_test(an_open_mesh_is_transparent_from_behind),
         cmocka_unit_test(pictures_do_not_depend_on_the_origin),
         cmocka_unit_test(a_moving_body_moves),
