@@ -10,6 +10,8 @@ sb_packages=(build-essential cmake ninja-build pkg-config git libosmesa6-dev lib
              libpng-dev libyaml-dev libjansson-dev libmicrohttpd-dev
              libjs-dygraphs libncurses-dev libcmocka-dev tmux)
 sb_picture_packages=(gnuplot-nox ffmpeg)
+# Packages for runs over several processes or machines.
+sb_cluster_packages=(libopenmpi-dev openmpi-bin)
 
 sb_say() { printf '== %s\n' "$*"; }
 
