@@ -186,7 +186,7 @@ static sb_status make_simulation(run *r, bool resume, sb_error *error)
 {
     r->picture_times.render = &r->scene->render;
     sb_status status = sb_pictures_begin(&r->pictures, r->scene, &r->model, r->directory, error);
-    if (status == SB_OK) status = sb_sim_create(r->scene, &r->model, &r->sim, error);
+    if (status == SB_OK) status = sb_sim_create(r->scene, &r->model, NULL, &r->sim, error);
     if (status == SB_OK && !resume) status = sb_sim_check_start(r->sim, error);
     return status == SB_OK ? sb_run_check_folders(r, error) : status;
 }

@@ -67,6 +67,9 @@ void sb_ranks_gather(sb_ranks *ranks, const void *own, size_t size, void *all);
 
 /* Adds up over all ranks, in place. */
 void sb_ranks_sum(sb_ranks *ranks, sb_exact *values, size_t count);
+/* The same, and returns the largest value of all ranks; count <= SB_RANKS_SUMS. */
+enum { SB_RANKS_SUMS = 8 };
+double sb_ranks_sum_and_largest(sb_ranks *ranks, sb_exact *values, size_t count, double value);
 void sb_ranks_add(sb_ranks *ranks, uint64_t *values, size_t count);
 /* The largest value of all ranks; no value is NaN. */
 double sb_ranks_largest(sb_ranks *ranks, double value);
