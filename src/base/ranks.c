@@ -141,3 +141,22 @@ void sb_ranks_collect(sb_ranks *ranks, int to, void *own, size_t size, void *all
     sb_ranks_start(ranks, NULL, 0, receive, receives);
     sb_ranks_finish(ranks);
 }
+
+void sb_ranks_take_turn(sb_ranks *ranks, void *bytes, size_t size)
+{
+    if (!sb_ranks_several(ranks) || ranks->rank == 0 || size == 0) return;
+    const sb_parcel before = {ranks->rank - 1, bytes, size};
+    sb_ranks_start(ranks, NULL, 0, &before, 1);
+    sb_ranks_finish(ranks);
+}
+
+void sb_ranks_end_turn(sb_ranks *ranks, void *bytes, size_t size)
+{
+    if (!sb_ranks_several(ranks) || size == 0) return;
+    if (ranks->rank + 1 < ranks->count) {
+        const sb_parcel next = {ranks->rank + 1, bytes, size};
+        sb_ranks_start(ranks, &next, 1, NULL, 0);
+        sb_ranks_finish(ranks);
+    }
+    sb_ranks_share(ranks, ranks->count - 1, bytes, size);
+}

@@ -264,6 +264,16 @@ sb_vec3 sb_sim_body_displacement(const sb_sim *sim, size_t body)
                            : sb_scale(sim->walls.moving[m].direction, sim->walls.moving[m].next_displacement);
 }
 
+sb_ranks *sb_sim_ranks(const sb_sim *sim)
+{
+    return sim->ranks;
+}
+
+size_t sb_sim_particles(const sb_sim *sim)
+{
+    return sim->state.n;
+}
+
 size_t sb_sim_bytes(const sb_sim *sim)
 {
     enum { WALL_BYTES = sizeof(sb_record) + sizeof(uint32_t) + sizeof(sb_f4) };

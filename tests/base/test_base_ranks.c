@@ -87,6 +87,13 @@ static int collections(sb_ranks *ranks, int round)
     const int *at = all;
     for (int r = 0; r < n && me == root; r++)
         for (int k = 0; k < (r + round) % 3; k++) wrong += *at++ != 100 * r + k;
+    uint64_t word_of_all = 1;
+    sb_ranks_take_turn(ranks, &word_of_all, sizeof word_of_all);
+    word_of_all = 10 * word_of_all + (uint64_t)me;
+    sb_ranks_end_turn(ranks, &word_of_all, sizeof word_of_all);
+    uint64_t expected_word = 1;
+    for (int r = 0; r < n; r++) expected_word = 10 * expected_word + (uint64_t)r;
+    wrong += word_of_all != expected_word;
     double shared = me == root ? 7.5 + round : 0;
     sb_ranks_share(ranks, root, &shared, sizeof shared);
     return wrong + (shared != 7.5 + round);

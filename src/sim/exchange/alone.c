@@ -37,12 +37,6 @@ static double largest(const sb_sim *sim, double value)
     return value;
 }
 
-static bool any(const sb_sim *sim, bool flag)
-{
-    (void)sim;
-    return flag;
-}
-
 static sb_status agree(const sb_sim *sim, sb_status own, sb_error *error)
 {
     (void)sim, (void)error;
@@ -57,6 +51,5 @@ const sb_exchange sb_exchange_alone = {
     .sum_and_largest = sum_and_largest,
     .count = sum_counts,
     .largest = largest,
-    .any = any,
     .agree = agree,
 };

@@ -63,17 +63,23 @@ void sb_domains_gather_row(sb_domains *d)
 
 sb_status sb_domains_agree(const sb_sim *sim, sb_status own, sb_error *error)
 {
+    typedef struct outcome {
+        int32_t status;
+        bool explained;
+    } outcome;
     sb_ranks *ranks = sim->ranks;
-    int32_t status = (int32_t)own, all[SB_RANKS_MAX];
-    sb_ranks_gather(ranks, &status, sizeof status, all);
-    int first = 0;
-    while (first < ranks->count && all[first] == SB_OK) first++;
-    if (first == ranks->count) return SB_OK;
+    const outcome here = {(int32_t)own, own != SB_OK && error && error->text[0]};
+    outcome all[SB_RANKS_MAX];
+    int first = -1;
+    sb_ranks_gather(ranks, &here, sizeof here, all);
+    for (int r = ranks->count - 1; r >= 0; r--)
+        if (all[r].status != SB_OK && (first < 0 || all[r].explained || !all[first].explained)) first = r;
+    if (first < 0) return SB_OK;
     char text[sizeof error->text] = {0};
     if (first == ranks->rank && error) memcpy(text, error->text, sizeof text);
     sb_ranks_share(ranks, first, text, sizeof text);
     text[sizeof text - 1] = 0;
-    return sb_fail(error, (sb_status)all[first], "%s", text);
+    return sb_fail(error, (sb_status)all[first].status, "%s", text);
 }
 
 static void sum(const sb_sim *sim, sb_exact *values, size_t count)
@@ -97,11 +103,6 @@ static double largest(const sb_sim *sim, double value)
     return sb_ranks_largest(sim->ranks, value);
 }
 
-static bool any(const sb_sim *sim, bool flag)
-{
-    return sb_ranks_any(sim->ranks, flag);
-}
-
 const sb_exchange sb_exchange_domains = {
     .name = "domains",
     .migrate = sb_domains_migrate,
@@ -112,6 +113,5 @@ const sb_exchange sb_exchange_domains = {
     .sum_and_largest = sum_and_largest,
     .count = sum_counts,
     .largest = largest,
-    .any = any,
     .agree = sb_domains_agree,
 };

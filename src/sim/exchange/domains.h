@@ -71,7 +71,7 @@ static inline bool sb_domains_owns(const sb_domains *domains, uint64_t key)
     return key >= domains->cut[own] && key < domains->cut[own + 1];
 }
 
-/* The same failure in all domains: that of the first rank that has one. */
+/* The same failure in all domains: that of the first rank that has one with a message. */
 sb_status sb_domains_agree(const sb_sim *sim, sb_status own, sb_error *error);
 
 /* Gathers `domains->row`, one number for each rank to which this one sends, into `domains->matrix`. */

@@ -1,5 +1,5 @@
 /* Everything that crosses the edge of the domain that this simulation computes: particles that move to another domain,
-   the values of ghosts, and sums, maxima and flags over all domains. Stages use nothing else for it. A simulation is
+   the values of ghosts, and sums and maxima over all domains. Stages use nothing else for it. A simulation is
    alone, or one of several domains (sim/exchange/domains.h); either is a row here. All domains call these functions in
    the same order. */
 #ifndef SB_SIM_EXCHANGE_H
@@ -34,8 +34,6 @@ typedef struct sb_exchange {
     void (*count)(const sb_sim *sim, uint64_t *values, size_t count);
     /* The largest value of all domains; none is NaN. */
     double (*largest)(const sb_sim *sim, double value);
-    /* Whether the flag is set in any domain. */
-    bool (*any)(const sb_sim *sim, bool flag);
     /* The status in all domains: the failure of the first that has one, with its message. */
     sb_status (*agree)(const sb_sim *sim, sb_status own, sb_error *error);
 } sb_exchange;

@@ -5,7 +5,7 @@
 #include "base/ranks_threads.h"
 #include "sim/sim.h"
 
-enum { RANKS_KEYS_MAX = 10, RANKS_TEST_MAX = 8 };
+enum { RANKS_KEYS_MAX = 10, RANKS_TEST_MAX = 8, RANKS_SAMPLES_MAX = 4096 };
 
 /* A scene: the file, keys over it ("path=value"), and the steps after settling. */
 typedef struct ranks_case {
@@ -23,17 +23,34 @@ typedef struct ranks_made {
 void ranks_make(const ranks_case *c, ranks_made *made);
 void ranks_free(ranks_made *made);
 
-/* What a run came to, the same in all ranks. */
+/* How to run it: ranks 1 is alone. `threads` each. disturb: seed of delays; 0: none. from: a saved state to begin with;
+   NULL: the start. */
+typedef struct ranks_way {
+    int ranks, threads;
+    uint64_t disturb;
+    const sb_archive_out *from;
+    int steps; /* instead of the case's, if > 0 */
+} ranks_way;
+
+/* What a run came to. What differs between the ranks is that of the first. */
 typedef struct ranks_end {
     uint64_t hash;
     double time;
     sb_energy energy;
-    size_t particles[RANKS_TEST_MAX]; /* of each rank */
-    bool differs;                     /* ranks disagree */
+    sb_departures departures;
+    size_t fluid, particles[RANKS_TEST_MAX]; /* of all, and of each rank */
+    bool differs;                            /* ranks disagree */
     sb_error error;
+    sb_frame *frame;
+    sb_archive_out saved;
+    size_t found, few;        /* samples of a query, with enough capacity and with little */
+    sb_fluid_sample *samples; /* RANKS_SAMPLES_MAX */
+    size_t push_count;
+    sb_vec3 push; /* N, sum of the recorded forces on walls, exact */
 } ranks_end;
 
-/* Runs it alone, if ranks is 1, or on ranks as threads of this process, each with `threads` threads. */
-ranks_end ranks_run(const ranks_case *c, const ranks_made *made, int ranks, int threads, uint64_t disturb);
+ranks_end ranks_run(const ranks_case *c, const ranks_made *made, const ranks_way *way);
+bool ranks_same_samples(const ranks_end *a, const ranks_end *b);
+void ranks_end_free(ranks_end *end);
 
 #endif
