@@ -54,6 +54,27 @@ void sb_ranks_sum(sb_ranks *ranks, sb_exact *values, size_t count)
     }
 }
 
+double sb_ranks_sum_and_largest(sb_ranks *ranks, sb_exact *values, size_t count, double value)
+{
+    typedef struct both {
+        double largest;
+        sb_exact sum[SB_RANKS_SUMS];
+    } both;
+    if (!sb_ranks_several(ranks)) return value;
+    both own = {.largest = value}, all[SB_RANKS_MAX];
+    const size_t size = offsetof(both, sum) + count * sizeof *values;
+    if (count > 0) memcpy(own.sum, values, count * sizeof *values);
+    sb_ranks_gather(ranks, &own, size, all);
+    for (size_t k = 0; k < count; k++) values[k] = (sb_exact){0};
+    for (size_t r = 0; r < (size_t)ranks->count; r++) {
+        both one; /* packed in the gather */
+        memcpy(&one, (const char *)all + r * size, size);
+        value = one.largest > value ? one.largest : value;
+        for (size_t k = 0; k < count; k++) sb_exact_merge(&values[k], &one.sum[k]);
+    }
+    return value;
+}
+
 void sb_ranks_add(sb_ranks *ranks, uint64_t *values, size_t count)
 {
     if (!sb_ranks_several(ranks)) return;
@@ -119,4 +140,23 @@ void sb_ranks_collect(sb_ranks *ranks, int to, void *own, size_t size, void *all
     }
     sb_ranks_start(ranks, NULL, 0, receive, receives);
     sb_ranks_finish(ranks);
+}
+
+void sb_ranks_take_turn(sb_ranks *ranks, void *bytes, size_t size)
+{
+    if (!sb_ranks_several(ranks) || ranks->rank == 0 || size == 0) return;
+    const sb_parcel before = {ranks->rank - 1, bytes, size};
+    sb_ranks_start(ranks, NULL, 0, &before, 1);
+    sb_ranks_finish(ranks);
+}
+
+void sb_ranks_end_turn(sb_ranks *ranks, void *bytes, size_t size)
+{
+    if (!sb_ranks_several(ranks) || size == 0) return;
+    if (ranks->rank + 1 < ranks->count) {
+        const sb_parcel next = {ranks->rank + 1, bytes, size};
+        sb_ranks_start(ranks, &next, 1, NULL, 0);
+        sb_ranks_finish(ranks);
+    }
+    sb_ranks_share(ranks, ranks->count - 1, bytes, size);
 }

@@ -67,6 +67,9 @@ void sb_ranks_gather(sb_ranks *ranks, const void *own, size_t size, void *all);
 
 /* Adds up over all ranks, in place. */
 void sb_ranks_sum(sb_ranks *ranks, sb_exact *values, size_t count);
+/* The same, and returns the largest value of all ranks; count <= SB_RANKS_SUMS. */
+enum { SB_RANKS_SUMS = 8 };
+double sb_ranks_sum_and_largest(sb_ranks *ranks, sb_exact *values, size_t count, double value);
 void sb_ranks_add(sb_ranks *ranks, uint64_t *values, size_t count);
 /* The largest value of all ranks; no value is NaN. */
 double sb_ranks_largest(sb_ranks *ranks, double value);
@@ -78,5 +81,10 @@ void sb_ranks_share(sb_ranks *ranks, int from, void *bytes, size_t size);
 /* Sends each rank's `size` bytes to rank `to`, which puts them one after another, by rank, into `all`; sizes: of each
    rank, known to rank `to`. all, sizes: NULL elsewhere. */
 void sb_ranks_collect(sb_ranks *ranks, int to, void *own, size_t size, void *all, const size_t *sizes);
+
+/* The ranks do something to the same bytes, one rank after another: a rank waits for those of the rank before it, and
+   then passes them on. After the end of all turns all ranks have the bytes of the last one. */
+void sb_ranks_take_turn(sb_ranks *ranks, void *bytes, size_t size);
+void sb_ranks_end_turn(sb_ranks *ranks, void *bytes, size_t size);
 
 #endif

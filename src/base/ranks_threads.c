@@ -5,6 +5,7 @@
 #include "base/random.h"
 
 #include <pthread.h>
+#include <sched.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -50,9 +51,12 @@ static size_t draw(member *m, size_t n)
     return (size_t)(sb_random(seed, m->drawn++) * (double)n);
 }
 
+/* Lets other threads go first now and then, and rarely for long: sleeping takes most of a test's time. */
 static void delay(member *m)
 {
-    if (m->team->disturb && draw(m, 4) == 0) usleep((useconds_t)draw(m, LONGEST_DELAY));
+    if (!m->team->disturb) return;
+    if (draw(m, 4) == 0) sched_yield();
+    if (draw(m, 128) == 0) usleep((useconds_t)draw(m, LONGEST_DELAY));
 }
 
 static void shuffle(member *m, sb_parcel *parcel, size_t count)

@@ -69,6 +69,9 @@ static int sums(sb_ranks *ranks, int round)
     for (int k = 0; k < VALUES; k++) wrong += sb_exact_value(&sum[k]) != ldexp(n * (n + 1) / 2, -10 * k);
     wrong += counts[0] != (uint64_t)(n * (n - 1) / 2) || counts[1] != (uint64_t)n;
     wrong += sb_ranks_largest(ranks, -ranks->rank - 3.0) != -3;
+    for (int k = 0; k < VALUES; k++) sum[k] = (sb_exact){0}, sb_exact_add(&sum[k], k + ranks->rank);
+    wrong += sb_ranks_sum_and_largest(ranks, sum, VALUES, ranks->rank == 0 ? 9.5 : -1) != 9.5;
+    for (int k = 0; k < VALUES; k++) wrong += sb_exact_value(&sum[k]) != k * n + n * (n - 1) / 2;
     wrong += sb_ranks_any(ranks, false) || !sb_ranks_any(ranks, ranks->rank == round % n);
     return wrong;
 }
@@ -77,13 +80,20 @@ static int collections(sb_ranks *ranks, int round)
 {
     const int n = ranks->count, root = round % n, me = ranks->rank;
     int own[16], all[16 * 16], wrong = 0;
-    size_t sizes[16];
+    size_t sizes[16] = {0};
     for (int r = 0; r < n; r++) sizes[r] = (size_t)((r + round) % 3) * sizeof *own;
     for (int k = 0; k < 16; k++) own[k] = 100 * me + k;
     sb_ranks_collect(ranks, root, own, sizes[me], me == root ? all : NULL, me == root ? sizes : NULL);
     const int *at = all;
     for (int r = 0; r < n && me == root; r++)
         for (int k = 0; k < (r + round) % 3; k++) wrong += *at++ != 100 * r + k;
+    uint64_t word_of_all = 1;
+    sb_ranks_take_turn(ranks, &word_of_all, sizeof word_of_all);
+    word_of_all = 10 * word_of_all + (uint64_t)me;
+    sb_ranks_end_turn(ranks, &word_of_all, sizeof word_of_all);
+    uint64_t expected_word = 1;
+    for (int r = 0; r < n; r++) expected_word = 10 * expected_word + (uint64_t)r;
+    wrong += word_of_all != expected_word;
     double shared = me == root ? 7.5 + round : 0;
     sb_ranks_share(ranks, root, &shared, sizeof shared);
     return wrong + (shared != 7.5 + round);

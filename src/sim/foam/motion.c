@@ -49,7 +49,8 @@ static void gather(const sb_sim *sim, sb_record at, vicinity *to)
             for (int dx = -1; dx <= 1; dx++) {
                 const uint64_t code = middle + sb_cell_step(dx, dy, dz);
                 add_cell(sim, &sim->cells, code, 0, corner, to);
-                if (sim->ghosts.count > 0) add_cell(sim, &sim->ghosts.cells, code, sim->state.n, corner, to);
+                if (sim->ghosts.halo > 0) add_cell(sim, &sim->ghosts.halo_cells, code, sim->state.n, corner, to);
+                if (sim->ghosts.count > 0) add_cell(sim, &sim->ghosts.cells, code, sb_images_first(sim), corner, to);
             }
 }
 

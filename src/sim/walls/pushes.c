@@ -62,6 +62,30 @@ void sb_pushes_clear(sb_pushes *pushes)
     pushes->failed = false;
 }
 
+int sb_pushes_share(sb_sim *sim)
+{
+    sb_ranks *ranks = sim->ranks;
+    sb_pushes *p = sim->pushes;
+    if (!p || !sb_ranks_several(ranks)) return p && p->failed ? -1 : 0;
+    uint64_t own = p->count, counts[SB_RANKS_MAX], all = 0;
+    sb_ranks_gather(ranks, &own, sizeof own, counts);
+    for (int r = 0; r < ranks->count; r++) all += counts[r];
+    const int grown = sb_grow((void **)&p->list, &p->capacity, (size_t)all, sizeof *p->list);
+    if (sb_ranks_any(ranks, p->failed || grown != 0)) return -1;
+    sb_parcel send[SB_RANKS_MAX], receive[SB_RANKS_MAX];
+    size_t sends = 0, receives = 0, end = p->count;
+    for (int r = 0; r < ranks->count; r++) {
+        if (r == ranks->rank) continue;
+        if (own > 0) send[sends++] = (sb_parcel){r, p->list, own * sizeof *p->list};
+        if (counts[r] > 0) receive[receives++] = (sb_parcel){r, p->list + end, counts[r] * sizeof *p->list};
+        end += counts[r];
+    }
+    sb_ranks_start(ranks, send, sends, receive, receives);
+    sb_ranks_finish(ranks);
+    p->count = (size_t)all;
+    return 0;
+}
+
 void sb_pushes_destroy(sb_pushes *pushes)
 {
     if (!pushes) return;

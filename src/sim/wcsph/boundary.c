@@ -100,7 +100,8 @@ static surroundings around_cell(const sb_sim *sim, uint64_t code)
             for (int dx = -1; dx <= 1; dx++) {
                 const uint64_t there = code + sb_cell_step(dx, dy, dz);
                 add_range(&sim->cells, there, 0, &around);
-                if (sim->ghosts.count > 0) add_range(&sim->ghosts.cells, there, sim->state.n, &around);
+                if (sim->ghosts.halo > 0) add_range(&sim->ghosts.halo_cells, there, sim->state.n, &around);
+                if (sim->ghosts.count > 0) add_range(&sim->ghosts.cells, there, sb_images_first(sim), &around);
             }
     return around;
 }
