@@ -39,9 +39,7 @@ static sb_status act_build(run *r, const order *given, sb_error *error)
 
 static sb_status act_create(run *r, const order *given, sb_error *error)
 {
-    if (sb_crew_several(r))
-        return sb_fail(error, SB_BAD_INPUT, "the simulation runs on one rank only, expected no mpirun");
-    sb_status status = sb_sim_create(r->scene, &r->model, &r->sim, error);
+    sb_status status = sb_sim_create(r->scene, &r->model, r->crew.ranks, &r->sim, error);
     if (status == SB_OK && given->flag == 0) status = sb_sim_check_start(r->sim, error);
     return status;
 }
@@ -66,17 +64,34 @@ static void watch_settling(void *context, int done, int most, double speed)
     while (given.what != ORDER_GO_ON);
 }
 
+/* Adds what was sent and waited for since `before` to that of the steps. */
+static void count_step(run *r, const sb_ranks *before)
+{
+    const sb_ranks *now = r->crew.ranks;
+    r->crew.steps.bytes_sent += now->bytes_sent - before->bytes_sent;
+    r->crew.steps.messages += now->messages - before->messages;
+    r->crew.steps.waited += now->waited - before->waited;
+}
+
 static sb_status act_settle(run *r, const order *given, sb_error *error)
 {
     (void)given;
-    return sb_sim_settle_watched(r->sim, watch_settling, r, error);
+    if (!sb_crew_several(r)) return sb_sim_settle_watched(r->sim, watch_settling, r, error);
+    const sb_ranks before = *r->crew.ranks;
+    const sb_status status = sb_sim_settle_watched(r->sim, watch_settling, r, error);
+    count_step(r, &before);
+    return status;
 }
 
 static sb_status act_step(run *r, const order *given, sb_error *error)
 {
     (void)given;
+    if (!sb_crew_several(r)) return sb_sim_step(r->sim, error);
     if (!sb_crew_leads(r)) sb_model_free_particles(&r->model); /* rank 0 does this when its files are open */
-    return sb_sim_step(r->sim, error);
+    const sb_ranks before = *r->crew.ranks;
+    const sb_status status = sb_sim_step(r->sim, error);
+    count_step(r, &before);
+    return status;
 }
 
 static sb_status act_observe(run *r, const order *given, sb_error *error)
@@ -99,6 +114,9 @@ static sb_status act_snapshot(run *r, const order *given, sb_error *error)
     (void)given;
     (void)error;
     r->crew.frame = sb_sim_snapshot(r->sim);
+    if (sb_crew_leads(r)) return SB_OK;
+    sb_frame_release(r->crew.frame); /* it has no particles */
+    r->crew.frame = NULL;
     return SB_OK;
 }
 

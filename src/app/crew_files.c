@@ -13,7 +13,7 @@ void sb_crew_save(run *r, bool settling, sb_archive_out *out)
 sb_status sb_crew_act_save(run *r, const order *given, sb_error *error)
 {
     (void)error;
-    if (sb_crew_leads(r)) sb_sim_save(r->sim, r->crew.out);
+    sb_sim_save(r->sim, r->crew.out);
     if (sb_crew_leads(r) && given->flag == 0) sb_measure_save(r->measure, r->crew.out);
     return SB_OK;
 }

@@ -17,10 +17,10 @@ typedef struct share {
 
 static share share_of(const run *r)
 {
-    const sb_ranks *ranks = r->crew.ranks;
+    const sb_ranks *ranks = &r->crew.steps;
     const sb_stage_time *stages;
     const size_t count = sb_sim_stages(r->sim, &stages);
-    share own = {.particles = (double)sb_sim_report(r->sim)->fluid_count,
+    share own = {.particles = (double)sb_sim_particles(r->sim),
                  .bytes = (double)ranks->bytes_sent,
                  .messages = (double)ranks->messages,
                  .waited = ranks->waited,
@@ -66,11 +66,8 @@ sb_status sb_crew_act_loads(run *r, const order *given, sb_error *error)
     const share own = share_of(r);
     (void)given;
     (void)error;
-    /* The gather itself is not counted: it is no part of a step. */
-    const sb_ranks before = *r->crew.ranks;
     sb_ranks_gather(r->crew.ranks, &own, sizeof own, all);
-    *r->crew.ranks = before;
-    r->crew.load = sum_up(all, before.count);
+    r->crew.load = sum_up(all, r->crew.ranks->count);
     return SB_OK;
 }
 

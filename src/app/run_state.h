@@ -80,6 +80,7 @@ typedef struct sb_crew {
     sb_settle_watch *watch; /* rank 0's own, in settling */
     sb_archive_out *out;    /* rank 0: the checkpoint that is written; NULL in the others */
     sb_archive_in *in;      /* rank 0: the checkpoint that is read */
+    sb_ranks steps;         /* what this rank has sent and waited for in steps alone */
     bool told;              /* rank 0 was told of a signal */
     bool dismissed;         /* the other ranks follow no more */
     /* What the last order of the kind gave. */
