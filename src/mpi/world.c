@@ -5,11 +5,11 @@
 #include "mpi/parts.h"
 #include "mpi/starter.h"
 
-#include <sched.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <time.h>
 
 void sb_world_end(const world *w, const char *format, ...)
@@ -69,11 +69,18 @@ static void look_at_deadline(const world *w, double waited, int rank)
                  w->ranks.rank, sb_world_host(&w->ranks, w->ranks.rank), waited, whom, w->deadline);
 }
 
+/* A rank that sleeps between its looks is woken at once when the cores are shared with other processes; one that only
+   yields its core waits for all of them each time. */
+static void nap(double waited)
+{
+    static const struct timespec SHORT = {.tv_nsec = 10 * 1000}, LONG = {.tv_nsec = 100 * 1000}; /* ns */
+    static const double SOON = 0.01;                                                             /* s */
+    nanosleep(waited < SOON ? &SHORT : &LONG, NULL);
+}
+
 void sb_world_idle(world *w, wait *state, int rank)
 {
-    enum { BUSY = 50, YIELDING = 5000 };                       /* turns */
-    static const struct timespec NAP = {.tv_nsec = 50 * 1000}; /* ns */
-    if (++state->turns < BUSY) return;
+    if (state->turns++ < w->busy_turns) return;
     const double now = sb_clock();
     if (!(state->begun > 0)) state->begun = state->looked = now;
     if (now > state->looked + LOOK_SECONDS) {
@@ -82,16 +89,14 @@ void sb_world_idle(world *w, wait *state, int rank)
         look_for_ended(w, now - state->begun);
         look_at_deadline(w, now - state->begun, rank);
     }
-    if (state->turns < YIELDING)
-        sched_yield(); /* the rank that is waited for may need this core */
-    else
-        nanosleep(&NAP, NULL);
+    nap(now - state->begun);
 }
 
 /* ---- begin and end ---- */
 
 static void set_up(world *w)
 {
+    enum { SLACK = 1000 }; /* ns */
     MPI_Comm_rank(MPI_COMM_WORLD, &w->ranks.rank);
     MPI_Comm_size(MPI_COMM_WORLD, &w->ranks.count);
     MPI_Comm_dup(MPI_COMM_WORLD, &w->data);
@@ -100,6 +105,7 @@ static void set_up(world *w)
     MPI_Comm_set_errhandler(w->control, MPI_ERRORS_RETURN);
     w->ranks.transport = &sb_world_transport;
     w->ranks.context = w;
+    prctl(PR_SET_TIMERSLACK, SLACK); /* naps are shorter than the usual slack */
 }
 
 sb_status sb_world_join(double deadline, sb_world_fatal *fatal, sb_ranks **ranks, sb_error *error)
