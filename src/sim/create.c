@@ -126,11 +126,7 @@ static void fill_particles(sb_sim *sim)
 /* What a run of several ranks cannot compute yet; NULL: all that the scene needs is there. */
 static const char *missing_on_ranks(const sb_needs *needs)
 {
-    return needs->wcsph             ? "numerics.solver: wcsph"
-           : needs->sea             ? "a side of kind sea"
-           : needs->surface_tension ? "fluid.surface_tension"
-           : needs->foam            ? "foam"
-                                    : NULL;
+    return needs->surface_tension ? "fluid.surface_tension" : NULL;
 }
 
 /* Divides the particles among the ranks of the run. */
@@ -269,7 +265,7 @@ sb_ranks *sb_sim_ranks(const sb_sim *sim)
     return sim->ranks;
 }
 
-size_t sb_sim_particles(const sb_sim *sim)
+size_t sb_sim_owned(const sb_sim *sim)
 {
     return sim->state.n;
 }

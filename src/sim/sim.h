@@ -150,8 +150,8 @@ const sb_wall_push *sb_sim_pushes(const sb_sim *sim, size_t *count);
 /* The ranks that compute the run together; NULL: one. */
 sb_ranks *sb_sim_ranks(const sb_sim *sim);
 /* The particles of this rank; sb_sim_report has the number of all. */
-size_t sb_sim_particles(const sb_sim *sim);
-/* Particle i < sb_sim_particles() in storage order; i is another particle after each step. The particles of all ranks,
+size_t sb_sim_owned(const sb_sim *sim);
+/* Particle i < sb_sim_owned() in storage order; i is another particle after each step. The particles of all ranks,
    one rank after another, are those that one rank would have. */
 sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i);
 
