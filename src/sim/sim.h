@@ -28,7 +28,7 @@ typedef struct sb_body_impulse {
 /* Creates a simulation. scene and model must outlive it: it reads names, wave makers and, until it has settled, the
    initial velocities. The exceptions are the parts that sb_model_free_start frees, and, after settling,
    sb_model_free_particles. ranks: those that compute the run together, which outlive it, each with the same scene and
-   model; NULL: one computes it. SB_BAD_INPUT if the scene needs what several ranks cannot compute. All ranks call the
+   model; NULL: one computes it. All ranks call the
    functions below that say "together", in the same order; with one rank these are as any others. */
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_ranks *ranks, sb_sim **sim, sb_error *error);
 /* The time step (s) for water with this maximum speed (m/s): an estimate that needs no simulation. */

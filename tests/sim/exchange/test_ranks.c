@@ -75,6 +75,16 @@ static const ranks_case cases[] = {
      8,
      {"resolution=0.05", "numerics.preset=wen", "numerics.walls=particles", "numerics.kernel_correction=none"}},
     {"dynamic boundary particles", COLUMN, 8, {"resolution=0.05", "numerics.preset=wen"}},
+    {"surface tension",
+     TANK,
+     10,
+     {"fluid.surface_tension=0.0728", "domain={min: [0, 0, 0], max: [0.02, 0.02, 0.02]}", "resolution=0.001",
+      "water={boxes: [{min: [0.004, 0.004, 0.004], max: [0.014, 0.010, 0.012]}]}"}},
+    {"surface tension in 2D",
+     TANK,
+     10,
+     {"dimensions=2", "fluid.surface_tension=0.0728", "domain={min: [0, 0], max: [0.04, 0.04]}", "resolution=0.001",
+      "water={boxes: [{min: [0.004, 0.004], max: [0.034, 0.016]}]}"}},
 };
 enum { CASES = sizeof cases / sizeof cases[0] };
 
