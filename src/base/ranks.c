@@ -160,3 +160,22 @@ void sb_ranks_end_turn(sb_ranks *ranks, void *bytes, size_t size)
     }
     sb_ranks_share(ranks, ranks->count - 1, bytes, size);
 }
+
+void sb_ranks_spread(sb_ranks *ranks, void *own, void *all, const size_t *sizes)
+{
+    sb_parcel send[SB_RANKS_MAX], receive[SB_RANKS_MAX];
+    size_t sends = 0, receives = 0;
+    char *place = all;
+    const size_t size = sizes[sb_ranks_own(ranks)];
+    for (int r = 0; r < sb_ranks_count(ranks); place += sizes[r++]) {
+        if (r == sb_ranks_own(ranks)) {
+            if (size > 0) memcpy(place, own, size);
+            continue;
+        }
+        if (size > 0) send[sends++] = (sb_parcel){r, own, size};
+        if (sizes[r] > 0) receive[receives++] = (sb_parcel){r, place, sizes[r]};
+    }
+    if (!sb_ranks_several(ranks)) return;
+    sb_ranks_start(ranks, send, sends, receive, receives);
+    sb_ranks_finish(ranks);
+}

@@ -82,6 +82,10 @@ void sb_ranks_share(sb_ranks *ranks, int from, void *bytes, size_t size);
    rank, known to rank `to`. all, sizes: NULL elsewhere. */
 void sb_ranks_collect(sb_ranks *ranks, int to, void *own, size_t size, void *all, const size_t *sizes);
 
+/* Sends `size` own bytes to all other ranks, and puts the bytes of all, one rank after another, into `all`, which
+   does not overlap with `own`; sizes: of each rank. */
+void sb_ranks_spread(sb_ranks *ranks, void *own, void *all, const size_t *sizes);
+
 /* The ranks do something to the same bytes, one rank after another: a rank waits for those of the rank before it, and
    then passes them on. After the end of all turns all ranks have the bytes of the last one. */
 void sb_ranks_take_turn(sb_ranks *ranks, void *bytes, size_t size);

@@ -118,7 +118,7 @@ static void deposit_all(sb_map_field *map, const window *w, sb_fluid_sample samp
 
 static void deposit_own(sb_map_field *map, const sb_sim *sim)
 {
-    const size_t count = sb_sim_particles(sim);
+    const size_t count = sb_sim_owned(sim);
 #pragma omp parallel
     {
         const window w = window_of(map, omp_get_thread_num(), omp_get_num_threads());

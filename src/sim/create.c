@@ -123,29 +123,13 @@ static void fill_particles(sb_sim *sim)
     sim->state.max_speed = top;
 }
 
-/* What a run of several ranks cannot compute yet; NULL: all that the scene needs is there. */
-static const char *missing_on_ranks(const sb_needs *needs)
-{
-    return needs->wcsph             ? "numerics.solver: wcsph"
-           : needs->sea             ? "a side of kind sea"
-           : needs->surface_tension ? "fluid.surface_tension"
-           : needs->foam            ? "foam"
-                                    : NULL;
-}
-
 /* Divides the particles among the ranks of the run. */
 static sb_status create_domains(sb_sim *sim, sb_ranks *ranks, sb_error *error)
 {
     if (!sb_ranks_several(ranks)) return SB_OK;
-    const char *missing = missing_on_ranks(&sim->needs);
     sim->ranks = ranks;
     sim->exchange = &sb_exchange_domains;
-    sb_status status = SB_OK;
-    if (missing)
-        status = sb_fail(error, SB_BAD_INPUT, "%.500s: %s is not available on several ranks: expected one rank",
-                         sim->scene->path ? sim->scene->path : "the scene", missing);
-    if (status == SB_OK) status = sb_domains_create(sim, error);
-    status = sb_domains_agree(sim, status, error);
+    const sb_status status = sb_domains_agree(sim, sb_domains_create(sim, error), error);
     if (status != SB_OK) return status;
     return sb_domains_cut(sim, place_of, sim->model, sim->model->fluid_count, error);
 }
@@ -269,7 +253,7 @@ sb_ranks *sb_sim_ranks(const sb_sim *sim)
     return sim->ranks;
 }
 
-size_t sb_sim_particles(const sb_sim *sim)
+size_t sb_sim_owned(const sb_sim *sim)
 {
     return sim->state.n;
 }

@@ -28,7 +28,7 @@ typedef struct sb_body_impulse {
 /* Creates a simulation. scene and model must outlive it: it reads names, wave makers and, until it has settled, the
    initial velocities. The exceptions are the parts that sb_model_free_start frees, and, after settling,
    sb_model_free_particles. ranks: those that compute the run together, which outlive it, each with the same scene and
-   model; NULL: one computes it. SB_BAD_INPUT if the scene needs what several ranks cannot compute. All ranks call the
+   model; NULL: one computes it. All ranks call the
    functions below that say "together", in the same order; with one rank these are as any others. */
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_ranks *ranks, sb_sim **sim, sb_error *error);
 /* The time step (s) for water with this maximum speed (m/s): an estimate that needs no simulation. */
@@ -150,8 +150,8 @@ const sb_wall_push *sb_sim_pushes(const sb_sim *sim, size_t *count);
 /* The ranks that compute the run together; NULL: one. */
 sb_ranks *sb_sim_ranks(const sb_sim *sim);
 /* The particles of this rank; sb_sim_report has the number of all. */
-size_t sb_sim_particles(const sb_sim *sim);
-/* Particle i < sb_sim_particles() in storage order; i is another particle after each step. The particles of all ranks,
+size_t sb_sim_owned(const sb_sim *sim);
+/* Particle i < sb_sim_owned() in storage order; i is another particle after each step. The particles of all ranks,
    one rank after another, are those that one rank would have. */
 sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i);
 

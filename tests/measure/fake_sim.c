@@ -57,7 +57,7 @@ sb_ranks *sb_sim_ranks(const sb_sim *sim)
     return NULL;
 }
 
-size_t sb_sim_particles(const sb_sim *sim)
+size_t sb_sim_owned(const sb_sim *sim)
 {
     return sim->report.fluid_count;
 }

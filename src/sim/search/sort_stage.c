@@ -158,14 +158,14 @@ static void swap(sb_sim *sim, size_t a, size_t b)
 static void note_departures(sb_sim *sim, const bounds *b, size_t first)
 {
     size_t seawards = first; /* particles that leave to a given sea come first */
+    sb_departures here = {.count = 0};
     for (size_t i = first; i < sim->state.n; i++) {
         const sb_exit way = outside(sim, b, sim->state.position[i]);
-        const bool sea = sim->scene->domain.side[way.side] == SB_SIDE_SEA;
-        if (sea) swap(sim, i, seawards++);
+        if (sim->scene->domain.side[way.side] == SB_SIDE_SEA)
+            swap(sim, i, seawards++);
+        else
+            sb_departures_note(sim, way, i, &here);
     }
-    sb_departures here = {.count = 0};
-    for (size_t i = seawards; i < sim->state.n; i++)
-        sb_departures_note(sim, outside(sim, b, sim->state.position[i]), i, &here);
     sb_departures_add(sim, &here);
     if (!sim->policy->runs) return;
     if (sim->needs.sea) sb_ledger_cross(sim, first, seawards);

@@ -56,24 +56,6 @@ void sb_gather_first(const sb_sim *sim, const sb_shares *shares, void *own, size
     sb_ranks_collect(sim->ranks, 0, own, sim->state.n * size, all, sizes);
 }
 
-/* Sends the own samples to all other domains, and receives theirs, one domain after another, into `all`. */
-static void exchange_samples(sb_ranks *ranks, sb_placed_sample *own, const uint64_t *counts, sb_placed_sample *all)
-{
-    sb_parcel send[SB_RANKS_MAX], receive[SB_RANKS_MAX];
-    size_t sends = 0, receives = 0;
-    const size_t length = counts[ranks->rank] * sizeof *own;
-    for (int r = 0; r < ranks->count; all += counts[r++]) {
-        if (r == ranks->rank) {
-            if (length > 0) memcpy(all, own, length);
-            continue;
-        }
-        if (length > 0) send[sends++] = (sb_parcel){r, own, length};
-        if (counts[r] > 0) receive[receives++] = (sb_parcel){r, all, counts[r] * sizeof *own};
-    }
-    sb_ranks_start(ranks, send, sends, receive, receives);
-    sb_ranks_finish(ranks);
-}
-
 /* Merges the domains' samples by their cells, each of which is in one domain. */
 static void merge(const sb_ranks *ranks, const uint64_t *counts, const sb_placed_sample *all, size_t total,
                   sb_fluid_sample *samples, size_t capacity)
@@ -98,10 +80,12 @@ size_t sb_gather_samples(const sb_sim *sim, sb_placed_sample *own, size_t count,
 {
     sb_ranks *ranks = sim->ranks;
     uint64_t found = own || count == 0 ? count : UINT64_MAX, counts[SB_RANKS_MAX], total = 0;
+    size_t sizes[SB_RANKS_MAX];
     sb_ranks_gather(ranks, &found, sizeof found, counts);
     for (int r = 0; r < ranks->count; r++) {
         if (counts[r] == UINT64_MAX) return SIZE_MAX;
         total += counts[r];
+        sizes[r] = (size_t)counts[r] * sizeof *own;
     }
     if (total == 0 || total > capacity) return (size_t)total;
     sb_placed_sample *all = sb_alloc_untouched(total, sizeof *all);
@@ -109,8 +93,24 @@ size_t sb_gather_samples(const sb_sim *sim, sb_placed_sample *own, size_t count,
         sb_free(all);
         return SIZE_MAX;
     }
-    exchange_samples(ranks, own, counts, all);
+    sb_ranks_spread(ranks, own, all, sizes);
     merge(ranks, counts, all, (size_t)total, samples, capacity);
     sb_free(all);
     return (size_t)total;
+}
+
+sb_part sb_gather_part(const sb_sim *sim, size_t all)
+{
+    const size_t ranks = (size_t)sb_ranks_count(sim->ranks), own = (size_t)sb_ranks_own(sim->ranks);
+    const size_t from = all * own / ranks;
+    return (sb_part){from, all * (own + 1) / ranks - from};
+}
+
+const void *sb_take_part(const sb_sim *sim, sb_archive_in *in, void *entries, size_t size)
+{
+    const size_t all = entries ? sim->work.everywhere : 0;
+    const sb_part part = sb_gather_part(sim, all);
+    const char *list = sb_take_list_place(in, all, size);
+    if (list && part.count > 0) memcpy(entries, list + part.from * size, part.count * size);
+    return list;
 }

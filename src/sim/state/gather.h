@@ -14,6 +14,15 @@ void sb_gather_shares(const sb_sim *sim, sb_shares *shares);
    is NULL in the others. field NULL: an empty list. */
 void sb_gather_list(const sb_sim *sim, const sb_shares *shares, sb_archive_out *out, void *field, size_t size);
 
+/* The part of a saved list of all particles that this domain takes: as many as another one, in their order. */
+typedef struct sb_part {
+    size_t from, count;
+} sb_part;
+sb_part sb_gather_part(const sb_sim *sim, size_t all);
+/* Takes this domain's part of a list of sim->work.everywhere elements into `entries`; NULL: the list is empty. Returns
+   where the list is; NULL: an error. */
+const void *sb_take_part(const sb_sim *sim, sb_archive_in *in, void *entries, size_t size);
+
 /* Puts `size` bytes for each particle, domain after domain, into `all` in the first domain; it is NULL in the others.
    own: of the own particles. */
 void sb_gather_first(const sb_sim *sim, const sb_shares *shares, void *own, size_t size, void *all);

@@ -101,6 +101,7 @@ void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
 {
     if (sb_ranks_own(sim->ranks) > 0) {
         put_particles(sim, NULL);
+        sb_wcsph_save(sim, NULL);
         sb_sim_hash(sim);
         return;
     }
@@ -169,16 +170,14 @@ static void take_particles(sb_sim *sim, sb_archive_in *in)
     sb_state *state = &sim->state;
     const size_t most = sim->needs.sea ? ((size_t)1 << SB_INDEX_BITS) - 1 : sim->model->fluid_count;
     const size_t all = sb_take_length(in, sizeof *state->position, most);
-    const size_t ranks = (size_t)sb_ranks_count(sim->ranks), own = (size_t)sb_ranks_own(sim->ranks);
-    const size_t from = all * own / ranks, n = all * (own + 1) / ranks - from;
+    const size_t n = sb_gather_part(sim, all).count;
     const void *positions = NULL;
+    sim->work.everywhere = all;
     make_room(sim, n, in);
     for (const sb_state_field *f = sb_state_fields; f->name; f++) {
-        char *entries = sb_state_entries(state, f);
         if (f->apart) continue;
-        const char *list = sb_take_list_place(in, entries ? all : 0, f->size);
+        const void *list = sb_take_part(sim, in, sb_state_entries(state, f), f->size);
         if (f == sb_state_fields) positions = list;
-        if (list && entries && n > 0) memcpy(entries, list + from * f->size, n * f->size);
     }
     state->n = in->error.status == SB_OK ? n : 0;
     sim->work.everywhere = in->error.status == SB_OK ? all : 0;

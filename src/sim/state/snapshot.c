@@ -97,6 +97,11 @@ static sb_frame *snapshot_of_all(const sb_sim *sim)
         fill_particles(sim, own);
         gather(sim, &shares, own, all);
     }
+    const bool failed = all && first && sb_foam_fill(sim, all) != 0;
+    if (sim->foam && sb_ranks_any(sim->ranks, failed)) {
+        sb_frame_release(all);
+        all = NULL;
+    }
     sb_frame_release(own);
     return all;
 }

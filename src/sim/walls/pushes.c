@@ -67,22 +67,19 @@ int sb_pushes_share(sb_sim *sim)
     sb_ranks *ranks = sim->ranks;
     sb_pushes *p = sim->pushes;
     if (!p || !sb_ranks_several(ranks)) return p && p->failed ? -1 : 0;
-    uint64_t own = p->count, counts[SB_RANKS_MAX], all = 0;
-    sb_ranks_gather(ranks, &own, sizeof own, counts);
-    for (int r = 0; r < ranks->count; r++) all += counts[r];
-    const int grown = sb_grow((void **)&p->list, &p->capacity, (size_t)all, sizeof *p->list);
-    if (sb_ranks_any(ranks, p->failed || grown != 0)) return -1;
-    sb_parcel send[SB_RANKS_MAX], receive[SB_RANKS_MAX];
-    size_t sends = 0, receives = 0, end = p->count;
-    for (int r = 0; r < ranks->count; r++) {
-        if (r == ranks->rank) continue;
-        if (own > 0) send[sends++] = (sb_parcel){r, p->list, own * sizeof *p->list};
-        if (counts[r] > 0) receive[receives++] = (sb_parcel){r, p->list + end, counts[r] * sizeof *p->list};
-        end += counts[r];
+    size_t sizes[SB_RANKS_MAX], all = 0;
+    const size_t own = p->count * sizeof *p->list;
+    sb_ranks_gather(ranks, &own, sizeof own, sizes);
+    for (int r = 0; r < ranks->count; r++) all += sizes[r];
+    sb_wall_push *list = sb_alloc_untouched(all, 1);
+    if (sb_ranks_any(ranks, p->failed || !list)) {
+        sb_free(list);
+        return -1;
     }
-    sb_ranks_start(ranks, send, sends, receive, receives);
-    sb_ranks_finish(ranks);
-    p->count = (size_t)all;
+    sb_ranks_spread(ranks, p->list, list, sizes);
+    sb_free(p->list);
+    p->list = list;
+    p->count = p->capacity = all / sizeof *list;
     return 0;
 }
 

@@ -82,7 +82,7 @@ static void show(sb_sim *sim, ranks_end *end, bool first)
     end->energy = sb_sim_energy(sim);
     end->departures = *sb_sim_departures(sim);
     end->fluid = sb_sim_report(sim)->fluid_count;
-    end->particles[0] = sb_sim_particles(sim);
+    end->particles[0] = sb_sim_owned(sim);
     end->frame = sb_sim_snapshot(sim);
     query(sim, end);
     sum_pushes(sim, end);

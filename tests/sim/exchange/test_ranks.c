@@ -43,6 +43,48 @@ static const ranks_case cases[] = {
      8,
      {"domain={min: [0, 0, 0], max: [3, 0.5, 1], sides: {y_min: periodic, y_max: periodic}}",
       "water={boxes: [{min: [0, 0, 0], max: [1, 0.5, 0.6]}]}", "resolution=0.08"}},
+    {"absorbing paddle in plates, and a sponge",
+     TANK,
+     10,
+     {"domain={min: [-0.6, 0, 0], max: [2, 1.2, 1.2]}", "resolution=0.15",
+      "water={boxes: [{min: [0, 0, 0], max: [2, 0.6, 1.2], level: 0.65}, {min: [0, 0.6, 0], max: [2, 1.2, 1.2], level: "
+      "0.5}]}",
+      "bodies=[{name: paddle, shape: box, min: [-0.5, 0, 0], max: [0, 1.2, 1.2]}]",
+      "wavemakers=[{name: taker, body: paddle, kind: absorber, depth: 0.6, period: 1.5, plates: {width: 0.45}}]",
+      "sponges=[{name: beach, side: x_max, length: 1, period: 1, depth: 0.6}]", "numerics.settle_steps=4"}},
+    {"water leaves",
+     TANK,
+     25,
+     {"domain={min: [0, 0, 0], max: [0.8, 0.6, 1], sides: {x_max: open}}",
+      "water={boxes: [{min: [0, 0, 0], max: [0.7, 0.6, 0.7]}]}", "numerics.settle_steps=0"}},
+    {"given sea at two sides of a flume",
+     TANK,
+     30,
+     {"dimensions=2", "domain={min: [0, 0], max: [4, 1.8], sides: {x_min: sea, x_max: sea}}",
+      "water={level: 1, seed: [2, 0.9]}", "sea={source: theory, wave: solitary, height: 0.3, depth: 1, origin: [2, 0]}",
+      "numerics.settle_steps=4"}},
+    {"given sea at a corner",
+     TANK,
+     12,
+     {"resolution=0.2", "domain={min: [0, 0, 0], max: [3.2, 3.2, 1.8], sides: {x_min: sea, y_max: sea}}",
+      "water={level: 1, seed: [1.6, 1.6, 0.8]}",
+      "sea={source: theory, wave: solitary, height: 0.3, depth: 1, origin: [-2, 0]}", "numerics.settle_steps=4"}},
+    {"foam", COLUMN, 14, {"resolution=0.05", "numerics.settle_steps=4", "foam={enabled: true, most: 200}"}},
+    {"weakly compressible water",
+     COLUMN,
+     8,
+     {"resolution=0.05", "numerics.preset=wen", "numerics.walls=particles", "numerics.kernel_correction=none"}},
+    {"dynamic boundary particles", COLUMN, 8, {"resolution=0.05", "numerics.preset=wen"}},
+    {"surface tension",
+     TANK,
+     10,
+     {"fluid.surface_tension=0.0728", "domain={min: [0, 0, 0], max: [0.02, 0.02, 0.02]}", "resolution=0.001",
+      "water={boxes: [{min: [0.004, 0.004, 0.004], max: [0.014, 0.010, 0.012]}]}"}},
+    {"surface tension in 2D",
+     TANK,
+     10,
+     {"dimensions=2", "fluid.surface_tension=0.0728", "domain={min: [0, 0], max: [0.04, 0.04]}", "resolution=0.001",
+      "water={boxes: [{min: [0.004, 0.004], max: [0.034, 0.016]}]}"}},
 };
 enum { CASES = sizeof cases / sizeof cases[0] };
 
@@ -54,6 +96,11 @@ static void check_frames(const ranks_case *c, const sb_frame *a, const sb_frame 
     assert_memory_equal(a->velocity, b->velocity, 3 * a->count * sizeof(float));
     assert_memory_equal(a->pressure, b->pressure, a->count * sizeof(float));
     assert_memory_equal(a->id, b->id, a->count * sizeof *a->id);
+    assert_int_equal(a->foam.count, b->foam.count);
+    if (a->foam.count == 0) return;
+    printf("  %zu particles of foam\n", a->foam.count);
+    assert_memory_equal(a->foam.position, b->foam.position, 3 * a->foam.count * sizeof(float));
+    assert_memory_equal(a->foam.id, b->foam.id, a->foam.count * sizeof *a->foam.id);
 }
 
 /* All that leaves the simulation, and the saved state. */
