@@ -20,7 +20,7 @@ static share share_of(const run *r)
     const sb_ranks *ranks = &r->crew.steps;
     const sb_stage_time *stages;
     const size_t count = sb_sim_stages(r->sim, &stages);
-    share own = {.particles = (double)sb_sim_particles(r->sim),
+    share own = {.particles = (double)sb_sim_owned(r->sim),
                  .bytes = (double)ranks->bytes_sent,
                  .messages = (double)ranks->messages,
                  .waited = ranks->waited,
@@ -105,7 +105,7 @@ void sb_crew_log(run *r)
 void sb_crew_print(const run *r)
 {
     char text[300];
-    if (!sb_crew_several(r)) return;
+    if (!sb_crew_several(r) || !r->sim) return;
     describe(&r->crew.load, text);
     printf("%d ranks: %s\n", r->crew.ranks->count, text);
 }

@@ -113,6 +113,9 @@ sb_status sb_world_join(double deadline, sb_world_fatal *fatal, sb_ranks **ranks
     int provided = 0;
     *ranks = NULL;
     if (!sb_world_started()) return SB_OK;
+    /* Open MPI yields the core at each look when there are more ranks than cores. With other processes on the cores
+       each yield costs milliseconds; sb_world_idle sleeps instead. */
+    setenv("OMPI_MCA_mpi_yield_when_idle", "0", 0);
     if (MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS || provided < MPI_THREAD_FUNNELED)
         return sb_fail(error, SB_FAILED, "MPI: cannot begin with threads beside it");
     world *w = sb_alloc(1, sizeof *w);
