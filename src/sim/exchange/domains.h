@@ -32,6 +32,8 @@ typedef struct sb_domains {
     uint64_t *next; /* the same from the next step on, if `recut` */
     bool recut;
     uint64_t searches; /* for neighbours, so far */
+    uint64_t cuts;     /* made anew, so far */
+    double imbalance;  /* largest load over the mean, less 1, when it was last looked at */
     sb_halo_plan plan;
 
     /* buffers */
