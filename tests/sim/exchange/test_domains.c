@@ -1,5 +1,5 @@
-/* Domains: a bad cut is mended without a trace in the bits, particles are where the cut says, and a failure in one rank is
-   told by all. */
+/* Domains: a bad cut is mended without a trace in the bits, particles are where the cut says, and a failure in one rank
+   is told by all. */
 #include "base/memory.h"
 #include "check.h"
 #include "sim/exchange/domains.h"
@@ -20,8 +20,8 @@ enum { RANKS = 3, STEPS = 20 };
 
 typedef struct job {
     const ranks_made *made;
-    bool spoil;          /* one rank begins with all the water */
-    uint32_t fast;       /* a particle that is too fast in the end; UINT32_MAX: none */
+    bool spoil;           /* one rank begins with all the water */
+    uint32_t fast;        /* a particle that is too fast in the end; UINT32_MAX: none */
     int misplaced[RANKS]; /* particles that are not in their rank's range of keys after a sort */
     uint64_t hash[RANKS], cuts[RANKS];
     double imbalance[RANKS];
