@@ -258,6 +258,12 @@ size_t sb_sim_owned(const sb_sim *sim)
     return sim->state.n;
 }
 
+sb_division sb_sim_division(const sb_sim *sim)
+{
+    const sb_domains *d = sim->domains;
+    return (sb_division){sim->state.n, sim->ghosts.halo, d ? d->imbalance : 0, d ? d->cuts : 0};
+}
+
 size_t sb_sim_bytes(const sb_sim *sim)
 {
     enum { WALL_BYTES = sizeof(sb_record) + sizeof(uint32_t) + sizeof(sb_f4) };

@@ -151,6 +151,13 @@ const sb_wall_push *sb_sim_pushes(const sb_sim *sim, size_t *count);
 sb_ranks *sb_sim_ranks(const sb_sim *sim);
 /* The particles of this rank; sb_sim_report has the number of all. */
 size_t sb_sim_owned(const sb_sim *sim);
+/* How the work is divided among the ranks. */
+typedef struct sb_division {
+    size_t owned, halo; /* particles of this rank, and those of other ranks that it reads */
+    double imbalance;   /* largest load of a rank over the mean, less 1, by counted pairs; looked at every few steps */
+    uint64_t cuts;      /* how often the particles have been divided anew */
+} sb_division;
+sb_division sb_sim_division(const sb_sim *sim);
 /* Particle i < sb_sim_owned() in storage order; i is another particle after each step. The particles of all ranks,
    one rank after another, are those that one rank would have. */
 sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i);

@@ -147,13 +147,15 @@ void sb_domains_balance(sb_sim *sim, bool found)
         largest = load[r] > largest ? load[r] : largest;
     }
     const double mean = (double)all / (double)ranks, excess = (double)largest - mean;
+    d->imbalance = all > 0 ? excess / mean : 0;
     if (!(excess > IMBALANCE * mean)) return;
     proposal made[SB_RANKS_MAX];
     memset(made, 0, sizeof made);
-    propose(sim, before, all, made);
+    if (found) propose(sim, before, all, made);
     if (!collect(sim, made) || (double)largest_load(made, ranks, all) - mean > (1 - WORTH) * excess) return;
     for (size_t r = 1; r < ranks; r++) d->next[r] = made[r].key;
     d->next[0] = 0;
     d->next[ranks] = UINT64_MAX;
     d->recut = true;
+    d->cuts++;
 }

@@ -18,11 +18,9 @@ sb_status sb_domains_create(sb_sim *sim, sb_error *error)
     d->row = sb_alloc(ranks + 1, sizeof *d->row);
     d->send = sb_alloc(ranks, sizeof *d->send);
     d->receive = sb_alloc(ranks, sizeof *d->receive);
-    d->plan.first = sb_alloc(ranks + 1, sizeof *d->plan.first);
     d->plan.sends = sb_alloc(ranks, sizeof *d->plan.sends);
     d->plan.receives = sb_alloc(ranks, sizeof *d->plan.receives);
-    if (!d->cut || !d->next || !d->matrix || !d->row || !d->send || !d->receive || !d->plan.first || !d->plan.sends ||
-        !d->plan.receives)
+    if (!d->cut || !d->next || !d->matrix || !d->row || !d->send || !d->receive || !d->plan.sends || !d->plan.receives)
         return sb_fail_memory(error, "domains");
     return SB_OK;
 }
@@ -36,14 +34,14 @@ void sb_domains_destroy(sb_domains *d)
     sb_free(d->row);
     sb_free(d->send);
     sb_free(d->receive);
-    sb_free(d->plan.first);
     sb_free(d->plan.sends);
     sb_free(d->plan.receives);
     sb_free(d->plan.run);
+    sb_free(d->plan.place);
     sb_free(d->out);
     sb_free(d->in);
     sb_free(d->migrant);
-    sb_free(d->rank_of);
+    sb_free(d->pairs);
     sb_free(d);
 }
 
@@ -53,7 +51,7 @@ size_t sb_domains_bytes(const sb_domains *d)
     const size_t ranks = (size_t)d->ranks->count;
     return ranks * ranks * sizeof *d->matrix + d->out_capacity + d->in_capacity +
            d->migrant_capacity * sizeof *d->migrant + d->plan.run_capacity * sizeof *d->plan.run +
-           d->rank_of_capacity * sizeof *d->rank_of;
+           d->plan.place_capacity * sizeof *d->plan.place + d->pairs_capacity * sizeof *d->pairs;
 }
 
 void sb_domains_gather_row(sb_domains *d)

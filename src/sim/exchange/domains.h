@@ -19,9 +19,9 @@ typedef struct sb_migrant {
 
 /* What this domain sends in each exchange of values, and what it receives, by rank. */
 typedef struct sb_halo_plan {
-    sb_run *run; /* entries to send: those to rank r are runs [first[r], first[r + 1]) */
-    size_t runs, run_capacity;
-    size_t *first;            /* ranks + 1 */
+    sb_run *run;   /* entries to send, rank after rank */
+    size_t *place; /* of each run among all entries sent */
+    size_t runs, run_capacity, place_capacity;
     size_t *sends, *receives; /* ranks: particles */
     size_t sent;              /* particles to all ranks */
 } sb_halo_plan;
@@ -32,6 +32,8 @@ typedef struct sb_domains {
     uint64_t *next; /* the same from the next step on, if `recut` */
     bool recut;
     uint64_t searches; /* for neighbours, so far */
+    uint64_t cuts;     /* made anew, so far */
+    double imbalance;  /* largest load over the mean, less 1, when it was last looked at */
     sb_halo_plan plan;
 
     /* buffers */
@@ -42,8 +44,8 @@ typedef struct sb_domains {
     size_t out_capacity, in_capacity;
     sb_migrant *migrant;
     size_t migrant_capacity;
-    uint64_t *rank_of; /* of the halo: pairs of rank and cell */
-    size_t rank_of_capacity;
+    uint64_t *pairs; /* of rank and cell, for the halo */
+    size_t pairs_capacity;
 } sb_domains;
 
 /* Makes the domains of sim->ranks, which are not cut yet. SB_FAILED without memory. */
@@ -87,6 +89,9 @@ void sb_domains_balance(sb_sim *sim, bool found);
 
 /* migrate.c */
 sb_status sb_domains_migrate(sb_sim *sim, sb_error *error);
+
+/* halo_plan.c: makes the plan of what this rank sends. Returns 0, or -1 without memory. */
+int sb_domains_plan_sends(sb_sim *sim);
 
 /* halo.c */
 sb_status sb_domains_make_ghosts(sb_sim *sim, sb_error *error);
