@@ -29,7 +29,7 @@ typedef struct world {
     double deadline;
     sb_world_fatal *fatal;
     peer *peers;
-    unsigned busy_turns; /* looks before the first nap of a wait */
+    bool crowded; /* more ranks than cores here */
     /* Of the exchange in progress: requests, and the rank of each. */
     MPI_Request *requests;
     int *partners, *done;

@@ -31,13 +31,12 @@ static int cores_of_this(void)
 
 sb_status sb_world_meet(world *w, sb_error *error)
 {
-    enum { FEW = 20, MANY = 1000 }; /* a look takes a tenth of a microsecond */
     const peer own = describe();
     w->peers = sb_alloc((size_t)w->ranks.count, sizeof *w->peers);
     if (!w->peers) return sb_fail_memory(error, "the ranks");
     w->peers[w->ranks.rank] = own; /* messages of the wait below name this rank */
     w->ranks.transport->gather(&w->ranks, &own, sizeof own, w->peers);
-    w->busy_turns = sb_world_sharing(&w->ranks) > cores_of_this() ? FEW : MANY;
+    w->crowded = sb_world_sharing(&w->ranks) > cores_of_this();
     return SB_OK;
 }
 

@@ -71,16 +71,18 @@ static void look_at_deadline(const world *w, double waited, int rank)
 
 /* A rank that sleeps between its looks is woken at once when the cores are shared with other processes; one that only
    yields its core waits for all of them each time. */
-static void nap(double waited)
+static void nap(const world *w, double waited)
 {
-    static const struct timespec SHORT = {.tv_nsec = 10 * 1000}, LONG = {.tv_nsec = 100 * 1000}; /* ns */
-    static const double SOON = 0.01;                                                             /* s */
-    nanosleep(waited < SOON ? &SHORT : &LONG, NULL);
+    static const struct timespec SHORTEST = {.tv_nsec = 10 * 1000}, SHORT = {.tv_nsec = 40 * 1000},
+                                 LONG = {.tv_nsec = 100 * 1000}; /* ns */
+    static const double SOON = 0.01;                             /* s */
+    nanosleep(waited > SOON ? &LONG : w->crowded ? &SHORT : &SHORTEST, NULL);
 }
 
 void sb_world_idle(world *w, wait *state, int rank)
 {
-    if (state->turns++ < w->busy_turns) return;
+    enum { FEW = 20, MANY = 1000 }; /* looks before the first nap; a look takes a tenth of a microsecond */
+    if (state->turns++ < (w->crowded ? FEW : MANY)) return;
     const double now = sb_clock();
     if (!(state->begun > 0)) state->begun = state->looked = now;
     if (now > state->looked + LOOK_SECONDS) {
@@ -89,7 +91,7 @@ void sb_world_idle(world *w, wait *state, int rank)
         look_for_ended(w, now - state->begun);
         look_at_deadline(w, now - state->begun, rank);
     }
-    nap(now - state->begun);
+    nap(w, now - state->begun);
 }
 
 /* ---- begin and end ---- */
