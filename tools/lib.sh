@@ -10,6 +10,8 @@ sb_packages=(build-essential cmake ninja-build pkg-config git libosmesa6-dev lib
              libpng-dev libyaml-dev libjansson-dev libmicrohttpd-dev
              libjs-dygraphs libncurses-dev libcmocka-dev tmux)
 sb_picture_packages=(gnuplot-nox ffmpeg)
+# Packages for runs over several processes or machines.
+sb_cluster_packages=(libopenmpi-dev openmpi-bin)
 
 sb_say() { printf '== %s\n' "$*"; }
 
@@ -97,4 +99,32 @@ sb_exec() {
         SB_TARGETS="shorebreak shorebreak-$name" sb_build release >&2
     fi
     exec "$sb_root/build/release/shorebreak-$name" "$@"
+}
+
+# Sets sb_launch to the words that start a program on so many ranks of this machine, with further words for mpirun.
+sb_mpirun() {
+    local ranks=$1
+    shift
+    sb_launch=(mpirun --bind-to none --oversubscribe -n "$ranks" "$@")
+    ((EUID != 0)) || sb_launch+=(--allow-run-as-root)
+}
+
+# Prints the value of a key of a run's summary.
+sb_value() { sed -n "s/^ *\"$2\": \"\\{0,1\\}\\([^\",]*\\)\"\\{0,1\\},\\{0,1\\}\$/\\1/p" "$1/summary.json" | head -n 1; }
+
+# Whether two runs have ended in the same state with the same tables and maps; prints each difference.
+sb_same_run() {
+    local same=0 file name
+    if [[ $(sb_value "$1" state_hash) != "$(sb_value "$2" state_hash)" ]]; then
+        printf '%s and %s: the states differ\n' "$1" "$2"
+        same=1
+    fi
+    for file in "$1"/*.csv "$1"/maps/*.asc; do
+        [[ -e $file ]] || continue
+        name=${file#"$1"/}
+        cmp -s -- "$file" "$2/$name" && continue
+        printf '%s and %s: %s differs\n' "$1" "$2" "$name"
+        same=1
+    done
+    return "$same"
 }

@@ -1,6 +1,7 @@
 /* Resuming from the newest checkpoint that is undamaged, of this program and build, and of this scene. */
 #include "app/checkpoint.h"
 #include "app/checkpoint_parts.h"
+#include "app/crew.h"
 #include "app/grid_frame.h"
 #include "app/missed.h"
 #include "app/run_parts.h"
@@ -106,13 +107,12 @@ static sb_status take_run(run *r, sb_archive_in *in, sb_error *error)
     return status == SB_OK ? sb_csv_check(r->directory, r->scene, &r->tables, error) : status;
 }
 
-static sb_status load(run *r, const char *path, sb_error *error)
+static sb_status load(run *r, uint64_t step, const char *path, sb_error *error)
 {
     sb_archive_in in = {0};
     sb_status status = sb_archive_open(&in, path, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT, error);
     if (status == SB_OK) status = check_origin(r, &in, error);
-    if (status == SB_OK) status = sb_sim_load(r->sim, &in, error);
-    if (status == SB_OK) status = sb_measure_load(r->measure, &in, error);
+    if (status == SB_OK) status = sb_crew_load(r, false, step, &in, error);
     if (status == SB_OK) status = take_run(r, &in, error);
     sb_archive_in_free(&in);
     return status;
@@ -129,7 +129,7 @@ static sb_status load_settling(run *r, const char *path, sb_error *error)
         sb_spent_load(r, &in);
         status = sb_archive_leave(&in, error);
     }
-    if (status == SB_OK) status = sb_sim_load(r->sim, &in, error);
+    if (status == SB_OK) status = sb_crew_load(r, true, 0, &in, error);
     sb_archive_in_free(&in);
     if (status == SB_OK && !sb_sim_settling(r->sim, &done))
         status = sb_fail(error, SB_BAD_INPUT, "%.500s: its settling has ended, expected a state during settling", path);
@@ -160,7 +160,7 @@ sb_status sb_checkpoint_load(run *r, sb_error *error)
         sb_error reason = {0};
         status = sb_checkpoint_path(r, steps[i], path, error);
         if (status != SB_OK) break;
-        const sb_status found = load(r, path, &reason);
+        const sb_status found = load(r, steps[i], path, &reason);
         loaded = found == SB_OK;
         if (!loaded && i == 0) newest = reason;
         if (found == SB_FAILED) { /* no memory, or a read error: the checkpoint itself may be good */

@@ -1,10 +1,14 @@
 #include "app/commands.h"
+#include "app/crew.h"
+#include "app/crew_join.h"
 #include "app/grid_water.h"
 #include "app/options.h"
 #include "app/run.h"
 #include "base/file.h"
 #include "base/stop.h"
+#include "mpi/world.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -30,6 +34,10 @@ static const char help[] =
     "of\n"
     "                       this machine, or the next free one; beyond this machine only with --control);\n"
     "                       this also streams the run over LCM\n"
+    "  --rank-deadline S    on several ranks (mpirun, docs/mpi.md): end the run when a rank is not heard of for S "
+    "seconds\n"
+    "                       (default: 300)\n"
+    "  --mixed              on several ranks: accept unequal builds or processors; the bits may then differ\n"
     "  --quiet              print no progress\n"
     "  --profile            at the end, print the time that each stage took\n";
 
@@ -50,8 +58,56 @@ static bool is_loopback(const char *address)
 
 static int exit_status(sb_status status)
 {
-    if (status == SB_INTERRUPTED) return 128 + sb_stop_signal();
+    if (status == SB_INTERRUPTED) return 128 + (sb_stop_signal() ? sb_stop_signal() : SIGINT); /* 0: of another rank */
     return (int)status;
+}
+
+static sb_status check_options(const sb_options *options, sb_error *error)
+{
+    if (options->other_build && !options->resume)
+        return sb_fail(error, SB_BAD_INPUT, "--other-build: expected only together with --resume");
+    if (options->overwrite && options->resume)
+        return sb_fail(error, SB_BAD_INPUT, "--overwrite: cannot be used together with --resume, which keeps the run");
+    return SB_OK;
+}
+
+static sb_status check_scene(const sb_options *options, const sb_scene *scene, const sb_ranks *ranks, sb_error *error)
+{
+    if (*options->live_address && !scene->control.enabled && !is_loopback(options->live_address))
+        return sb_fail(error, SB_BAD_INPUT,
+                       "--live: %s is beyond this machine, expected together with --control, whose token every reader "
+                       "then needs",
+                       options->live_address);
+    if (sb_ranks_several(ranks) && sb_scene_grid_alone(scene))
+        return sb_fail(error, SB_BAD_INPUT,
+                       "%d ranks: a scene of open water without particles runs on one rank, expected no mpirun",
+                       ranks->count);
+    return SB_OK;
+}
+
+/* Reads the scene and runs it, as the leader or as a follower of several ranks. */
+static sb_status run_scene(const sb_options *options, sb_ranks *ranks, sb_scene *scene, sb_run_options *how,
+                           sb_error *error)
+{
+    char out[SB_PATH_MAX];
+    sb_status status = sb_options_scene(options, options->positional, scene, error);
+    status = sb_crew_compare(ranks, options, status, error);
+    if (status == SB_OK) status = check_scene(options, scene, ranks, error);
+    if (status != SB_OK) return status;
+    if (options->out)
+        snprintf(out, sizeof out, "%s", options->out);
+    else
+        default_out(out, options->positional);
+    how->resume = options->resume;
+    how->overwrite = options->overwrite;
+    how->other_build = options->other_build;
+    how->quiet = options->quiet;
+    how->profile = options->profile;
+    how->live_port = options->live_port;
+    how->live_address = options->live_address;
+    how->ranks = ranks;
+    if (sb_ranks_own(ranks) != 0) return sb_crew_follow(scene, out, how, error);
+    return (sb_scene_grid_alone(scene) ? sb_grid_run : sb_run)(scene, out, how, error);
 }
 
 int sb_command_run(int count, char **arguments)
@@ -59,46 +115,23 @@ int sb_command_run(int count, char **arguments)
     sb_options options;
     sb_error error = {0};
     sb_scene scene = {0};
+    sb_ranks *ranks = NULL;
     bool thread_remains = false;
     unsigned accepted = SB_OPT_OUT | SB_OPT_UNTIL | SB_OPT_THREADS | SB_OPT_PRESET | SB_OPT_SET | SB_OPT_QUIET |
                         SB_OPT_PROFILE | SB_OPT_RESUME | SB_OPT_OVERWRITE | SB_OPT_OTHER_BUILD | SB_OPT_CONTROL |
-                        SB_OPT_LIVE;
+                        SB_OPT_LIVE | SB_OPT_RANK_DEADLINE | SB_OPT_MIXED;
+    sb_run_options how = {.argument_count = count + 1, .arguments = arguments - 1 /* with the name of the command */};
+    how.thread_remains = &thread_remains;
     sb_status status = sb_options_parse(count, arguments, accepted, "scene", &options, &error);
     if (status == SB_OK && options.help) {
-        fputs(help, stdout);
+        if (sb_crew_speaks(NULL)) fputs(help, stdout);
         return 0;
     }
-    char out[SB_PATH_MAX];
-    if (status == SB_OK && options.other_build && !options.resume)
-        status = sb_fail(&error, SB_BAD_INPUT, "--other-build: expected only together with --resume");
-    if (status == SB_OK && options.overwrite && options.resume)
-        status =
-            sb_fail(&error, SB_BAD_INPUT, "--overwrite: cannot be used together with --resume, which keeps the run");
-    if (status == SB_OK) status = sb_options_scene(&options, options.positional, &scene, &error);
-    if (status == SB_OK && *options.live_address && !scene.control.enabled && !is_loopback(options.live_address))
-        status =
-            sb_fail(&error, SB_BAD_INPUT,
-                    "--live: %s is beyond this machine, expected together with --control, whose token every reader "
-                    "then needs",
-                    options.live_address);
-    if (status == SB_OK) {
-        if (options.out)
-            snprintf(out, sizeof out, "%s", options.out);
-        else
-            default_out(out, options.positional);
-        const sb_run_options run_options = {.resume = options.resume,
-                                            .overwrite = options.overwrite,
-                                            .other_build = options.other_build,
-                                            .quiet = options.quiet,
-                                            .profile = options.profile,
-                                            .live_port = options.live_port,
-                                            .live_address = options.live_address,
-                                            .argument_count = count + 1,
-                                            .arguments = arguments - 1, /* with the name of the command */
-                                            .thread_remains = &thread_remains};
-        status = (sb_scene_grid_alone(&scene) ? sb_grid_run : sb_run)(&scene, out, &run_options, &error);
-    }
-    if (status != SB_OK) fprintf(stderr, "shorebreak: %s\n", error.text);
+    if (status == SB_OK) status = check_options(&options, &error);
+    if (status == SB_OK) status = sb_crew_join(&options, &ranks, &error);
+    if (status == SB_OK) status = run_scene(&options, ranks, &scene, &how, &error);
+    if (status != SB_OK && sb_crew_speaks(ranks)) fprintf(stderr, "shorebreak: %s\n", error.text);
+    sb_world_leave(ranks);
     if (thread_remains) { /* a library's exit handler could wait for that thread, or free memory that it uses */
         fflush(NULL);
         _exit(exit_status(status));

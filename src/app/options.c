@@ -16,7 +16,8 @@ typedef struct flag {
     enum { NO_VALUE, VALUE, MAYBE_VALUE } takes; /* MAYBE_VALUE: only behind "=" */
 } flag;
 
-enum { DEFAULT_PORT = 8080 }; /* of --live */
+enum { DEFAULT_PORT = 8080 };         /* of --live */
+enum { DEFAULT_RANK_DEADLINE = 300 }; /* s */
 
 static const flag flags[] = {
     {"--out", SB_OPT_OUT, VALUE},
@@ -43,6 +44,8 @@ static const flag flags[] = {
     {"--cell", SB_OPT_CELL, VALUE},
     {"--smooth", SB_OPT_SMOOTH, VALUE},
     {"--film", SB_OPT_FILM, NO_VALUE},
+    {"--rank-deadline", SB_OPT_RANK_DEADLINE, VALUE},
+    {"--mixed", SB_OPT_MIXED, NO_VALUE},
 };
 
 static sb_status add_override(sb_options *options, const char *text, sb_error *error)
@@ -140,6 +143,14 @@ static sb_status take(sb_options *options, unsigned bit, const char *value, sb_e
     case SB_OPT_FILM:
         options->film = true;
         break;
+    case SB_OPT_MIXED:
+        options->mixed = true;
+        break;
+    case SB_OPT_RANK_DEADLINE:
+        options->rank_deadline = strtod(value, &end);
+        if (end == value || *end || !(options->rank_deadline >= 1 && options->rank_deadline <= 1e6))
+            return sb_fail(error, SB_BAD_INPUT, "--rank-deadline %.100s: expected seconds from 1 to 1e6", value);
+        break;
     case SB_OPT_OTHER_BUILD:
         options->other_build = true;
         break;
@@ -218,7 +229,8 @@ static sb_status take_positional(sb_options *options, unsigned accepted, const c
 sb_status sb_options_parse(int count, char **arguments, unsigned accepted, const char *what, sb_options *options,
                            sb_error *error)
 {
-    *options = (sb_options){.speed = 1, .cell = SB_WATER_MESH_CELL, .smooth = SB_WATER_MESH_SMOOTH};
+    *options = (sb_options){
+        .speed = 1, .cell = SB_WATER_MESH_CELL, .smooth = SB_WATER_MESH_SMOOTH, .rank_deadline = DEFAULT_RANK_DEADLINE};
     for (int i = 0; i < count; i++) {
         const char *argument = arguments[i];
         if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0) {

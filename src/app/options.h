@@ -27,7 +27,8 @@ typedef struct sb_options {
     int live_port;                               /* --live; 0: not given */
     char live_address[64];                       /* --live=ADDRESS:PORT; empty: loopback */
     int threads;                                 /* --threads; 0: OMP_NUM_THREADS, or one per core */
-    bool quiet, json, profile, resume, overwrite, other_build, film, help;
+    double rank_deadline;                        /* --rank-deadline; s */
+    bool quiet, json, profile, resume, overwrite, other_build, film, mixed, help;
     size_t override_count;
     sb_override overrides[SB_OVERRIDES_MAX];
     char *texts[SB_OVERRIDES_MAX]; /* owned copies; the overrides point into them */
@@ -58,8 +59,10 @@ enum {
     SB_OPT_CELL = 1048576,
     SB_OPT_SMOOTH = 2097152,
     SB_OPT_FILM = 4194304,
-    SB_OPT_SEVERAL = 8388608,   /* more than one positional argument */
-    SB_OPT_SHORT_OUT = 16777216 /* -o, the same as --out */
+    SB_OPT_SEVERAL = 8388608,    /* more than one positional argument */
+    SB_OPT_SHORT_OUT = 16777216, /* -o, the same as --out */
+    SB_OPT_RANK_DEADLINE = 33554432,
+    SB_OPT_MIXED = 67108864
 };
 
 /* Parses the arguments after the command's name. what: the name of the positional argument in messages. */

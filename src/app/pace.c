@@ -46,7 +46,7 @@ sb_status sb_pace_measure(const sb_scene *scene, double *seconds, sb_error *erro
     sb_model model = {0};
     sb_sim *sim = NULL;
     sb_status status = sb_model_build(&tank, &model, error);
-    if (status == SB_OK) status = sb_sim_create(&tank, &model, &sim, error);
+    if (status == SB_OK) status = sb_sim_create(&tank, &model, NULL, &sim, error);
     if (status == SB_OK) status = time_steps(sim, model.fluid_count, seconds, error);
     sb_sim_destroy(sim);
     sb_model_free(&model);

@@ -2,6 +2,7 @@
 #ifndef SB_APP_RUN_H
 #define SB_APP_RUN_H
 
+#include "base/ranks.h"
 #include "base/status.h"
 #include "scene/scene.h"
 
@@ -18,6 +19,7 @@ typedef struct sb_run_options {
     const char *live_address; /* on which it is; empty: loopback */
     int argument_count;       /* of the command line, from the command's name on; for the log; 0: unknown */
     char *const *arguments;
+    sb_ranks *ranks;      /* those that compute the run, of which this process is rank 0; NULL: it is alone */
     bool *thread_remains; /* set when a thread without progress still exists at the end: end the process by _exit, and
                    free nothing that the run was given; may be NULL */
 } sb_run_options;

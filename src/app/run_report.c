@@ -1,4 +1,5 @@
 /* Messages of a run to the terminal and its log, and the paths of its files. */
+#include "app/crew.h"
 #include "app/run_parts.h"
 
 #include <stdarg.h>
@@ -44,9 +45,9 @@ double sb_run_wall(const run *r)
 void sb_run_log_step(run *r)
 {
     const sb_step_report *report = sb_sim_report(r->sim);
-    const sb_energy energy = sb_sim_energy(r->sim);
+    const sb_energy energy = sb_crew_energy(r);
     sb_runlog_state state = {.report = report, .energy = &energy, .has_foam = r->scene->foam.enabled, .has_hash = true};
     state.stage_count = sb_sim_stages(r->sim, &state.stages);
-    state.hash = sb_sim_hash(r->sim);
+    state.hash = sb_crew_hash(r);
     sb_runlog_step(r->log, &state);
 }

@@ -7,6 +7,7 @@
 #include "app/helper.h"
 #include "app/picture_times.h"
 #include "app/run_files.h"
+#include "base/ranks.h"
 #include "measure/measure.h"
 #include "output/csv.h"
 #include "output/progress.h"
@@ -64,6 +65,31 @@ typedef struct sb_requested {
     uint64_t step;
 } sb_requested;
 
+/* How several ranks share the work. Means are over the ranks. */
+typedef struct sb_rank_load {
+    double mean_particles, most_particles; /* of a rank, now */
+    double imbalance;                      /* by how much the busiest rank computed longer than the mean; 0.1: 10 % */
+    double waited;                         /* share of the time of the stages in which a rank waited for others */
+    double bytes, messages;                /* that a rank sent per step */
+    double heap;                           /* bytes of the simulation, in all ranks */
+} sb_rank_load;
+
+/* The ranks of a run (app/crew.h). */
+typedef struct sb_crew {
+    sb_ranks *ranks;        /* NULL: this process is alone */
+    sb_settle_watch *watch; /* rank 0's own, in settling */
+    sb_archive_out *out;    /* rank 0: the checkpoint that is written; NULL in the others */
+    sb_archive_in *in;      /* rank 0: the checkpoint that is read */
+    sb_ranks steps;         /* what this rank has sent and waited for in steps alone */
+    bool told;              /* rank 0 was told of a signal */
+    bool dismissed;         /* the other ranks follow no more */
+    /* What the last order of the kind gave. */
+    sb_frame *frame;
+    uint64_t hash;
+    sb_energy energy;
+    sb_rank_load load;
+} sb_crew;
+
 typedef struct run {
     sb_scene resolved;     /* a shallow copy of the caller's scene, with values that depend on the model */
     const sb_scene *scene; /* points to resolved */
@@ -86,6 +112,7 @@ typedef struct run {
     uint64_t reported[CONSUMERS];     /* changes of their trouble that were reported */
     sb_steering steering;
     sb_requested requested;
+    sb_crew crew;
     sb_checkpoints checkpoints;
     sb_particle_list grid_frames; /* files of the depth-averaged model beside the particles */
     sb_csv_marks tables;          /* lengths and hashes of the tables that a resumed run continues */

@@ -10,6 +10,12 @@
 
 /* The number of threads that was requested. Static, because OpenMP's setting is global too. */
 static int requested;
+static int sharing = 1; /* processes */
+
+void sb_team_share(int processes)
+{
+    sharing = processes;
+}
 
 /* The processor time that a control group allows, in cores; INFINITY: no limit is known. */
 static double quota_of(const char *folder)
@@ -43,7 +49,7 @@ static double quota_of_group(void)
 
 int sb_team_cores(void)
 {
-    const double cores = fmin(omp_get_num_procs(), ceil(quota_of_group()));
+    const double cores = fmin(omp_get_num_procs(), ceil(quota_of_group())) / sharing;
     return cores > 1 ? (int)cores : 1;
 }
 

@@ -51,6 +51,9 @@ void sb_put_flag(sb_archive_out *out, bool value);
 void sb_put_vector(sb_archive_out *out, sb_vec3 value);
 /* Writes count elements of size bytes each, with the bytes that they have in memory. */
 void sb_put_list(sb_archive_out *out, const void *items, size_t count, size_t size);
+/* The same list in pieces: begins one of count elements; adds bytes to it until all elements are there. */
+void sb_put_list_begin(sb_archive_out *out, size_t count, size_t size);
+void sb_put_list_bytes(sb_archive_out *out, const void *bytes, size_t length);
 void sb_put_text(sb_archive_out *out, const char *text);
 
 /* Ends the archive. A file is then on disk, synced and renamed. SB_FAILED names the reason why this step or an earlier
@@ -94,6 +97,9 @@ sb_vec3 sb_take_vector(sb_archive_in *in);
 /* Reads a list of exactly count elements of size bytes into items. Any other list is an error and fills items with
    zeros. */
 void sb_take_list(sb_archive_in *in, void *items, size_t count, size_t size);
+/* Returns the elements of such a list where they are, which is not aligned, while the archive is there; NULL: an error.
+ */
+const void *sb_take_list_place(sb_archive_in *in, size_t count, size_t size);
 /* Returns the number of elements of the next list without reading it. A list whose elements are not of `size` bytes, or
    that has more than `most` elements, is an error and gives 0. */
 size_t sb_take_length(sb_archive_in *in, size_t size, size_t most);

@@ -225,13 +225,18 @@ size_t sb_take_length(sb_archive_in *in, size_t size, size_t most)
     return 0;
 }
 
-void sb_take_list(sb_archive_in *in, void *items, size_t count, size_t size)
+const void *sb_take_list_place(sb_archive_in *in, size_t count, size_t size)
 {
     const unsigned char *shape = value(in, SB_VALUE_LIST, 16);
     if (shape && (word_at(shape) != count || word_at(shape + 8) != size))
         sb_archive_refuse(in, "a list of %llu elements of %llu bytes, expected %zu of %zu",
                           (unsigned long long)word_at(shape), (unsigned long long)word_at(shape + 8), count, size);
-    const unsigned char *bytes = next(in, count * size);
+    return next(in, count * size);
+}
+
+void sb_take_list(sb_archive_in *in, void *items, size_t count, size_t size)
+{
+    const void *bytes = sb_take_list_place(in, count, size);
     if (count == 0) return;
     if (bytes)
         memcpy(items, bytes, count * size);

@@ -164,11 +164,21 @@ void sb_put_vector(sb_archive_out *out, sb_vec3 value)
     sb_put_real(out, value.z);
 }
 
-void sb_put_list(sb_archive_out *out, const void *items, size_t count, size_t size)
+void sb_put_list_begin(sb_archive_out *out, size_t count, size_t size)
 {
     append_kind(out, SB_VALUE_LIST);
     append_word(out, count);
     append_word(out, size);
+}
+
+void sb_put_list_bytes(sb_archive_out *out, const void *bytes, size_t length)
+{
+    append(out, bytes, length);
+}
+
+void sb_put_list(sb_archive_out *out, const void *items, size_t count, size_t size)
+{
+    sb_put_list_begin(out, count, size);
     append(out, items, count * size);
 }
 

@@ -7,12 +7,13 @@
 #include <stddef.h>
 
 /* Atomic: a signal handler needs a lock-free variable, and all threads read it. */
-static atomic_int noted;
-static atomic_bool requested;
+static atomic_int noted, waiting;
+static atomic_bool requested, deferred;
 
 static void note(int number)
 {
-    atomic_store_explicit(&noted, number, memory_order_relaxed);
+    atomic_int *where = atomic_load_explicit(&deferred, memory_order_relaxed) ? &waiting : &noted;
+    atomic_store_explicit(where, number, memory_order_relaxed);
 }
 
 /* When a terminal closes, both its shell and the kernel may send SIGHUP, so a second one must not end the process. */
@@ -36,9 +37,37 @@ void sb_stop_watch(void)
     signal(SIGPIPE, SIG_IGN);
 }
 
+void sb_stop_defer(bool on)
+{
+    if (on) {
+        struct sigaction action = {.sa_handler = note, .sa_flags = SA_RESTART};
+        sigemptyset(&action.sa_mask);
+        sigaction(SIGUSR1, &action, NULL);
+    }
+    atomic_store(&deferred, on);
+    const int number = atomic_exchange(&waiting, 0);
+    if (number) note(number); /* to where it belongs now */
+}
+
+int sb_stop_waiting(void)
+{
+    return atomic_load_explicit(&waiting, memory_order_relaxed);
+}
+
+void sb_stop_accept(int number, bool by_command)
+{
+    atomic_store(&requested, by_command);
+    atomic_store(&noted, number);
+}
+
+bool sb_stop_by_command(void)
+{
+    return atomic_load(&requested);
+}
+
 void sb_stop_request(void)
 {
-    if (sb_stop_signal()) return;
+    if (sb_stop_signal() || sb_stop_waiting()) return;
     atomic_store(&requested, true);
     note(SIGINT);
 }

@@ -5,9 +5,22 @@
 
 #include "base/status.h"
 
+#include <stdbool.h>
+
 /* From now on SIGINT, SIGTERM and SIGHUP are only noted. A second SIGINT or SIGTERM ends the process at once. SIGHUP
    stays ignored if it was ignored before, as by nohup. Writing to a closed pipe fails and does not end the process. */
 void sb_stop_watch(void);
+
+/* For one of several processes that have to stop at the same step. While it is on, signals and requests wait:
+   sb_stop_signal does not change until sb_stop_accept. SIGUSR1, which mpirun passes on, then is a request, too. off:
+   what waits is noted. */
+void sb_stop_defer(bool on);
+/* The signal that waits, or 0. */
+int sb_stop_waiting(void);
+/* Notes this signal, which another process may have received; cause: as of sb_stop_cause. */
+void sb_stop_accept(int number, bool by_command);
+/* Whether what waits is the request of a command. */
+bool sb_stop_by_command(void);
 
 /* Notes SIGINT, as Ctrl-C would, for a command. */
 void sb_stop_request(void);

@@ -41,7 +41,9 @@ sb_status sb_cloud_add(sb_cloud *cloud, const sb_sim *sim, sb_vec3 min, sb_vec3 
     size_t found;
     for (;;) {
         sb_fluid_sample *free = cloud->samples ? cloud->samples + before : NULL;
-        found = before + sb_sim_query(sim, wide_min, wide_max, free, cloud->capacity - before);
+        const size_t more = sb_sim_query(sim, wide_min, wide_max, free, cloud->capacity - before);
+        if (more == SIZE_MAX) return sb_fail_memory(error, "measured particles");
+        found = before + more;
         if (found <= cloud->capacity) break;
         if (sb_grow((void **)&cloud->samples, &cloud->capacity, found, sizeof *cloud->samples) != 0)
             return sb_fail_memory(error, "measured particles");

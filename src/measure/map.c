@@ -116,15 +116,26 @@ static void deposit_all(sb_map_field *map, const window *w, sb_fluid_sample samp
     if (dx != 0 && dy != 0) deposit(map, w, &sample);
 }
 
-static void gather(sb_map_field *map, const sb_sim *sim)
+static void deposit_own(sb_map_field *map, const sb_sim *sim)
 {
-    const size_t cells = map->result.columns * map->result.rows, count = sb_sim_report(sim)->fluid_count;
-    memset(map->sums, 0, cells * sizeof *map->sums);
+    const size_t count = sb_sim_owned(sim);
 #pragma omp parallel
     {
         const window w = window_of(map, omp_get_thread_num(), omp_get_num_threads());
         for (size_t i = 0; i < count; i++) deposit_all(map, &w, sb_sim_particle(sim, i));
     }
+}
+
+/* Each rank adds its particles to the sums of the ranks before it, so that the order of all terms is that of one rank.
+   The last rank has the sums of all. */
+static void gather(sb_map_field *map, const sb_sim *sim)
+{
+    const size_t size = map->result.columns * map->result.rows * sizeof *map->sums;
+    sb_ranks *ranks = sb_sim_ranks(sim);
+    memset(map->sums, 0, size);
+    sb_ranks_take_turn(ranks, map->sums, size);
+    deposit_own(map, sim);
+    sb_ranks_end_turn(ranks, map->sums, size);
 }
 
 /* Width of the i-th cell from `start` that lies in the domain, m; the whole cell's width if none of it does. */

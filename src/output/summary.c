@@ -206,6 +206,7 @@ static void put_all(sb_json *json, const sb_summary *s)
     sb_json_number(json, "simulated_s", s->simulated);
     sb_json_count(json, "steps", s->steps);
     sb_json_count(json, "threads", (uint64_t)s->threads);
+    sb_json_count(json, "ranks", (uint64_t)s->ranks);
     sb_json_count(json, "dimensions", (uint64_t)s->scene->dimensions);
     sb_json_bool(json, "per_metre", s->scene->dimensions == 2);
     sb_json_number(json, "resolution_m", s->scene->resolution);

@@ -46,12 +46,12 @@ typedef struct sb_summary {
     bool has_inside;                     /* the two below are known */
     uint64_t inside, crossed;            /* particles whose centre lies within a solid at the end: all; those deeper
                                             than its boundary particles */
-    int threads;
-    const sb_body_record *bodies;     /* one per body of the model; NULL: none */
-    const sb_absorption *absorptions; /* one per body of the model; NULL: none */
-    const sb_gauge_waves *waves;      /* one per gauge; NULL: none */
-    const sb_overtopping_rate *rates; /* one per plane; NULL: none */
-    const sb_grid_facts_beside *grid; /* the depth-averaged water that is the sea; NULL: none */
+    int threads, ranks;                  /* threads: of each rank */
+    const sb_body_record *bodies;        /* one per body of the model; NULL: none */
+    const sb_absorption *absorptions;    /* one per body of the model; NULL: none */
+    const sb_gauge_waves *waves;         /* one per gauge; NULL: none */
+    const sb_overtopping_rate *rates;    /* one per plane; NULL: none */
+    const sb_grid_facts_beside *grid;    /* the depth-averaged water that is the sea; NULL: none */
     size_t reflection_count;
     const sb_reflection_record *reflections;   /* since the start of each set */
     sb_energy first, last;                     /* energies at the start and at the end */

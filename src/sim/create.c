@@ -1,6 +1,6 @@
 /* Creation and destruction of a simulation, and its simple accessors. */
 #include "base/memory.h"
-#include "sim/exchange/exchange.h"
+#include "sim/exchange/domains.h"
 #include "sim/foam/foam.h"
 #include "sim/passes/cpu/searcher.h"
 #include "sim/passes/passes.h"
@@ -66,9 +66,9 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
     };
 }
 
-static int allocate(sb_sim *sim)
+static int allocate(sb_sim *sim, size_t n)
 {
-    const size_t n = sim->model->fluid_count, bodies = sim->model->body_count;
+    const size_t bodies = sim->model->body_count;
     sim->work.body_force = sb_alloc(bodies * SB_FORCE_VALUES, sizeof *sim->work.body_force);
     sim->work.stress_force = sb_alloc(bodies * SB_FORCE_VALUES, sizeof *sim->work.stress_force);
     if (!sim->work.body_force || !sim->work.stress_force || sb_state_create(&sim->state, &sim->needs, n, bodies) != 0)
@@ -76,28 +76,65 @@ static int allocate(sb_sim *sim)
     return sb_work_create(&sim->work, &sim->needs, n, n);
 }
 
+static sb_record place_of(const sb_sim *sim, const void *model, size_t i)
+{
+    return sb_space_record(&sim->space, ((const sb_model *)model)->fluid_position[i]);
+}
+
+/* Whether this domain has the model's particle i at the start. */
+static bool has(const sb_sim *sim, size_t i)
+{
+    return !sim->domains || sb_domains_owns(sim->domains, sb_space_key(&sim->space, place_of(sim, sim->model, i)));
+}
+
+static size_t count_particles(const sb_sim *sim)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < sim->model->fluid_count; i++) count += has(sim, i);
+    return count;
+}
+
+static void fill_particle(sb_sim *sim, size_t at, size_t i)
+{
+    const sb_model *model = sim->model;
+    const sb_vec3 v = model->fluid_velocity[i];
+    sim->state.position[at] = place_of(sim, model, i);
+    sim->state.velocity[at] = (sb_f4){(float)v.x, (float)v.y, (float)v.z, (float)model->fluid_pressure[i]};
+    sim->state.id[at] = (uint32_t)i;
+    if (sim->state.start_velocity) sim->state.start_velocity[at] = (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0};
+}
+
 static void fill_particles(sb_sim *sim)
 {
     const sb_model *model = sim->model;
     const size_t n = model->fluid_count;
-    sim->state.n = n;
     sim->state.next_id = (uint32_t)n;
+    if (!sim->domains) {
 #pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < n; i++) {
-        sb_vec3 v = model->fluid_velocity[i];
-        sim->state.position[i] = sb_space_record(&sim->space, model->fluid_position[i]);
-        sim->state.velocity[i] = (sb_f4){(float)v.x, (float)v.y, (float)v.z, (float)model->fluid_pressure[i]};
-        sim->state.id[i] = (uint32_t)i;
-        if (sim->state.start_velocity) sim->state.start_velocity[i] = (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0};
-    }
+        for (size_t i = 0; i < n; i++) fill_particle(sim, i, i);
+        sim->state.n = n;
+    } else
+        for (size_t i = 0; i < n; i++)
+            if (has(sim, i)) fill_particle(sim, sim->state.n++, i);
     double top = 0;
     for (size_t i = 0; i < n; i++) top = fmax(top, sb_norm(model->fluid_velocity[i]));
     sb_wcsph_begin(sim);
     sb_density_correction_clear(sim);
-    sim->state.max_speed = sim->exchange->largest(sim, top);
+    sim->state.max_speed = top;
 }
 
-sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **sim, sb_error *error)
+/* Divides the particles among the ranks of the run. */
+static sb_status create_domains(sb_sim *sim, sb_ranks *ranks, sb_error *error)
+{
+    if (!sb_ranks_several(ranks)) return SB_OK;
+    sim->ranks = ranks;
+    sim->exchange = &sb_exchange_domains;
+    const sb_status status = sb_domains_agree(sim, sb_domains_create(sim, error), error);
+    if (status != SB_OK) return status;
+    return sb_domains_cut(sim, place_of, sim->model, sim->model->fluid_count, error);
+}
+
+sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_ranks *ranks, sb_sim **sim, sb_error *error)
 {
     sb_sim *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "the simulation");
@@ -116,10 +153,13 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **s
         status = create_space(made, error);
         made->work.pairs.unit = sb_lists_unit(made);
     }
-    if (status == SB_OK && allocate(made) != 0) status = sb_fail_memory(error, "fluid particles");
+    if (status == SB_OK) status = create_domains(made, ranks, error);
+    if (status == SB_OK && allocate(made, count_particles(made)) != 0)
+        status = sb_fail_memory(error, "fluid particles");
     if (status == SB_OK) status = sb_walls_create(made, error);
     if (status == SB_OK) status = sb_strip_create(made, error);
     if (status == SB_OK) status = sb_foam_create(made, error);
+    if (made->domains) status = sb_domains_agree(made, status, error);
     if (status != SB_OK) {
         sb_sim_destroy(made);
         return status;
@@ -182,6 +222,7 @@ void sb_sim_destroy(sb_sim *sim)
     sb_walls_destroy(sim);
     sb_pushes_destroy(sim->pushes);
     sb_foam_destroy(sim->foam);
+    sb_domains_destroy(sim->domains);
     sb_free(sim);
 }
 
@@ -207,6 +248,22 @@ sb_vec3 sb_sim_body_displacement(const sb_sim *sim, size_t body)
                            : sb_scale(sim->walls.moving[m].direction, sim->walls.moving[m].next_displacement);
 }
 
+sb_ranks *sb_sim_ranks(const sb_sim *sim)
+{
+    return sim->ranks;
+}
+
+size_t sb_sim_owned(const sb_sim *sim)
+{
+    return sim->state.n;
+}
+
+sb_division sb_sim_division(const sb_sim *sim)
+{
+    const sb_domains *d = sim->domains;
+    return (sb_division){sim->state.n, sim->ghosts.halo, d ? d->imbalance : 0, d ? d->cuts : 0};
+}
+
 size_t sb_sim_bytes(const sb_sim *sim)
 {
     enum { WALL_BYTES = sizeof(sb_record) + sizeof(uint32_t) + sizeof(sb_f4) };
@@ -216,6 +273,7 @@ size_t sb_sim_bytes(const sb_sim *sim)
                    sb_cells_bytes(&sim->ghosts.cells);
     bytes += sim->ghosts.of_capacity * 4 + (sim->ghosts.words_capacity + sim->ghosts.other_capacity) * 8;
     bytes += sim->work.pairs.capacity * sizeof *sim->work.pairs.four + sim->work.wall_pairs.capacity * 8;
+    bytes += sb_cells_bytes(&sim->ghosts.halo_cells) + sb_domains_bytes(sim->domains);
     bytes += sb_strip_bytes(sim) + sb_foam_bytes(sim->foam);
     bytes += sim->groups.capacity * sizeof *sim->groups.group + sim->groups.room * sizeof *sim->groups.run;
     bytes += sim->groups.images_room * sizeof *sim->groups.image + sim->groups.planes_room * sizeof *sim->groups.plane;

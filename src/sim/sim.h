@@ -4,6 +4,7 @@
 #define SB_SIM_SIM_H
 
 #include "base/archive.h"
+#include "base/ranks.h"
 #include "base/skipped.h"
 #include "base/status.h"
 #include "frame/departures.h"
@@ -26,8 +27,10 @@ typedef struct sb_body_impulse {
 
 /* Creates a simulation. scene and model must outlive it: it reads names, wave makers and, until it has settled, the
    initial velocities. The exceptions are the parts that sb_model_free_start frees, and, after settling,
-   sb_model_free_particles. */
-sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_sim **sim, sb_error *error);
+   sb_model_free_particles. ranks: those that compute the run together, which outlive it, each with the same scene and
+   model; NULL: one computes it. All ranks call the
+   functions below that say "together", in the same order; with one rank these are as any others. */
+sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_ranks *ranks, sb_sim **sim, sb_error *error);
 /* The time step (s) for water with this maximum speed (m/s): an estimate that needs no simulation. */
 double sb_sim_longest_step(const sb_scene *scene, const sb_model *model, double speed);
 /* With walls that reflect water: places near which there are more facets of walls than the search for neighbours can
@@ -116,7 +119,8 @@ sb_frame *sb_sim_snapshot(const sb_sim *sim);
 /* Finds all fluid particles in the box [min, max], in a fixed order, for gauges and probes. Positions are in the
    scene's coordinates, m. Beyond periodic sides it finds images, with the id of their original, up to one domain length
    away and at least up to eight spacings. It writes at most `capacity` samples and returns the number found, which may
-   be larger. */
+   be larger. Together: all ranks get the same samples, and none if there are more than `capacity`; SIZE_MAX: one of
+   them has no memory. */
 typedef struct sb_fluid_sample {
     sb_vec3 position, velocity;
     double pressure, density; /* Pa, as for sb_sim_find_virial_pressures; kg/m^3 */
@@ -143,7 +147,19 @@ sb_status sb_sim_record_pushes(sb_sim *sim, const sb_push_place *places, size_t 
 /* Those of the last step, in no fixed order. */
 const sb_wall_push *sb_sim_pushes(const sb_sim *sim, size_t *count);
 
-/* Particle i < sb_sim_report()->fluid_count in storage order; i is another particle after each step. */
+/* The ranks that compute the run together; NULL: one. */
+sb_ranks *sb_sim_ranks(const sb_sim *sim);
+/* The particles of this rank; sb_sim_report has the number of all. */
+size_t sb_sim_owned(const sb_sim *sim);
+/* How the work is divided among the ranks. */
+typedef struct sb_division {
+    size_t owned, halo; /* particles of this rank, and those of other ranks that it reads */
+    double imbalance;   /* largest load of a rank over the mean, less 1, by counted pairs; looked at every few steps */
+    uint64_t cuts;      /* how often the particles have been divided anew */
+} sb_division;
+sb_division sb_sim_division(const sb_sim *sim);
+/* Particle i < sb_sim_owned() in storage order; i is another particle after each step. The particles of all ranks,
+   one rank after another, are those that one rank would have. */
 sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i);
 
 size_t sb_sim_stages(const sb_sim *sim, const sb_stage_time **stages);

@@ -25,6 +25,7 @@ struct sb_pushes;   /* sim/walls/pushes.h */
 struct sb_strip;    /* sim/sea/strip.h */
 struct sb_exchange; /* sim/exchange/exchange.h */
 struct sb_foam;     /* sim/foam/foam.h */
+struct sb_domains;  /* sim/exchange/domains.h */
 
 struct sb_sim {
     /* constant */
@@ -35,6 +36,8 @@ struct sb_sim {
     sb_space space;
     const struct sb_passes *passes;     /* over pairs, in the form for this processor */
     const struct sb_exchange *exchange; /* with other domains */
+    sb_ranks *ranks;                    /* that compute the run together; NULL: it is alone */
+    struct sb_domains *domains;         /* NULL: it is alone */
 
     sb_state state;
     struct sb_strip *strip;       /* of given water; NULL: no side is a sea */
@@ -55,6 +58,12 @@ struct sb_sim {
     size_t stage_count;
     sb_skipped skipped[SB_SIM_SKIPPED_MAX + 1];
 };
+
+/* The first entry of images beyond periodic sides. */
+static inline size_t sb_images_first(const sb_sim *sim)
+{
+    return sim->state.n + sim->ghosts.halo;
+}
 
 static inline size_t sb_blocks(const sb_sim *sim)
 {

@@ -1,5 +1,6 @@
 #include "program.h"
 
+#include "../mpi/mpirun.h"
 #include "../output/json_check.h"
 #include "base/clock.h"
 #include "base/file.h"
@@ -17,7 +18,7 @@
 #include <unistd.h>
 
 static const double TIMEOUT = 300; /* s; far more than any run here takes, also with sanitizers on a busy machine */
-enum { ARGUMENTS = 32 };
+enum { ARGUMENTS = 48 };
 
 const char tank_2d[] = "title: Tank in 2D\n"
                        "dimensions: 2\n"
@@ -155,14 +156,37 @@ static void change_user(char **list)
     _exit(99);
 }
 
+static const char *ranks; /* their number; NULL: without mpirun */
+
+/* Fills `list` with the words of the command; returns the program to execute. */
+static const char *command_of(const char *const *arguments, char *list[ARGUMENTS])
+{
+    const char *const before[] = {MPIRUN_WORDS(ranks), SB_BINARY_DIR "/shorebreak"};
+    size_t count = 0;
+    if (!ranks) list[count++] = (char *)"shorebreak";
+    for (size_t k = 0; ranks && k < sizeof before / sizeof *before; k++) list[count++] = (char *)before[k];
+    for (size_t k = 0; arguments[k]; k++) {
+        assert_true(count < ARGUMENTS - 1);
+        list[count++] = (char *)arguments[k];
+    }
+    list[count] = NULL;
+    return ranks ? list[0] : SB_BINARY_DIR "/shorebreak";
+}
+
+void program_on_ranks(const char *count)
+{
+    ranks = count;
+}
+
+bool program_has_mpi(void)
+{
+    return access(SB_MPIRUN, X_OK) == 0;
+}
+
 static pid_t start(const char *const *arguments, bool has_reader)
 {
-    char *list[ARGUMENTS] = {(char *)"shorebreak"};
-    size_t count = 1;
-    for (; arguments[count - 1]; count++) {
-        assert_true(count < ARGUMENTS - 1);
-        list[count] = (char *)arguments[count - 1];
-    }
+    char *list[ARGUMENTS];
+    const char *program = command_of(arguments, list);
     setenv("OMP_NUM_THREADS", "1", 1);
     setenv("OMP_WAIT_POLICY", "passive", 1);
     setenv("LSAN_OPTIONS", "print_suppressions=0",
@@ -176,7 +200,7 @@ static pid_t start(const char *const *arguments, bool has_reader)
         redirect("stderr.txt", STDERR_FILENO);
         if (!has_reader) redirect_to_closed_pipe();
         if (processes_most > 0) change_user(list);
-        if (chdir(folder) == 0) execv(SB_BINARY_DIR "/shorebreak", list);
+        if (chdir(folder) == 0) execv(program, list);
         _exit(99);
     }
     return process;

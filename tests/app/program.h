@@ -30,6 +30,11 @@ void write_text(const char *name, const char *text);
 char *text_of(const char *name);
 bool exists(const char *name);
 
+/* From now on mpirun starts the binary on so many ranks; NULL: without mpirun. */
+void program_on_ranks(const char *count);
+/* Whether there is an mpirun, and the binary can use it. */
+bool program_has_mpi(void);
+
 /* Starts the binary with one thread; arguments end with NULL. Its output goes to files. */
 pid_t program_start(const char *const *arguments);
 /* The same, with its output going to a pipe that no process reads. */

@@ -79,7 +79,7 @@ static end run_simulation(const sb_scene *scene, const sb_model *model, int thre
     sb_sim *sim = NULL;
     sb_error error = {0};
     omp_set_num_threads(threads);
-    sb_status status = sb_sim_create(scene, model, &sim, &error);
+    sb_status status = sb_sim_create(scene, model, NULL, &sim, &error);
     if (status == SB_OK) status = sb_sim_settle(sim, &error);
     for (uint64_t step = count_steps(); step > 0 && status == SB_OK; step--) status = sb_sim_step(sim, &error);
     if (status != SB_OK) fail_msg("%s", error.text);

@@ -72,7 +72,7 @@ static void make(subject *s)
     sb_status status = sb_scene_read(fuzz_save("scene.yaml", (const uint8_t *)s->text, strlen(s->text)), NULL, NULL, 0,
                                      &s->scene, &error);
     if (status == SB_OK) status = sb_model_build(&s->scene, &s->model, &error);
-    if (status == SB_OK) status = sb_sim_create(&s->scene, &s->model, &s->sim, &error);
+    if (status == SB_OK) status = sb_sim_create(&s->scene, &s->model, NULL, &s->sim, &error);
     if (status == SB_OK && s->settles) status = sb_sim_settle_watched(s->sim, save_third, s, &error);
     if (status == SB_OK && !s->settles) status = sb_measure_create(&s->scene, &s->model, s->sim, &s->measure, &error);
     if (status == SB_OK && !s->settles) status = sb_sim_step(s->sim, &error);

@@ -74,7 +74,7 @@ static void make_simulation(void)
     sb_error error = {0};
     sb_sim_destroy(taker.sim);
     taker.sim = NULL;
-    must(sb_sim_create(&scene, &taker.model, &taker.sim, &error), &error);
+    must(sb_sim_create(&scene, &taker.model, NULL, &taker.sim, &error), &error);
 }
 
 static void save_third(void *context, int done, int most, double speed)

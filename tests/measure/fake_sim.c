@@ -51,6 +51,17 @@ const sb_wall_push *sb_sim_pushes(const sb_sim *sim, size_t *count)
     return sim->pushes;
 }
 
+sb_ranks *sb_sim_ranks(const sb_sim *sim)
+{
+    (void)sim;
+    return NULL;
+}
+
+size_t sb_sim_owned(const sb_sim *sim)
+{
+    return sim->report.fluid_count;
+}
+
 sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i)
 {
     return sim->samples[i];

@@ -45,7 +45,7 @@ static double flow_depth(const char *walls, int layers, double *splash)
     sb_error error = {0};
     read_scene(walls, layers, &scene);
     check_ok(sb_model_build(&scene, &model, &error), &error);
-    check_ok(sb_sim_create(&scene, &model, &sim, &error), &error);
+    check_ok(sb_sim_create(&scene, &model, NULL, &sim, &error), &error);
     check_ok(sb_sim_settle(sim, &error), &error);
     check_ok(sb_measure_create(&scene, &model, sim, &measure, &error), &error);
     *splash = 0;

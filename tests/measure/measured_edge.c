@@ -79,7 +79,7 @@ static sums run(const char *walls)
     sums s = {0};
     read_scene(walls, &scene);
     check_ok(sb_model_build(&scene, &model, &error), &error);
-    check_ok(sb_sim_create(&scene, &model, &sim, &error), &error);
+    check_ok(sb_sim_create(&scene, &model, NULL, &sim, &error), &error);
     check_ok(sb_sim_settle(sim, &error), &error);
     check_ok(sb_measure_create(&scene, &model, sim, &measure, &error), &error);
     while (sb_sim_report(sim)->time < scene.duration) {

@@ -55,7 +55,7 @@ static readings at_rest(const char *text)
     int rows = 0;
     read_scene(text, &scene);
     check_ok(sb_model_build(&scene, &model, &error), &error);
-    check_ok(sb_sim_create(&scene, &model, &sim, &error), &error);
+    check_ok(sb_sim_create(&scene, &model, NULL, &sim, &error), &error);
     check_ok(sb_sim_settle(sim, &error), &error);
     check_ok(sb_measure_create(&scene, &model, sim, &measure, &error), &error);
     while (sb_sim_report(sim)->time < 1) {
@@ -220,7 +220,7 @@ static void a_puddle_on_a_plateau_is_not_the_runup(void **state)
                "           {name: shore, from: [1], to: [2]}]\n",
                &scene);
     check_ok(sb_model_build(&scene, &model, &error), &error);
-    check_ok(sb_sim_create(&scene, &model, &sim, &error), &error);
+    check_ok(sb_sim_create(&scene, &model, NULL, &sim, &error), &error);
     check_ok(sb_sim_settle(sim, &error), &error);
     check_ok(sb_measure_create(&scene, &model, sim, &measure, &error), &error);
     const sb_measure_records *now = sb_measure_latest(measure);

@@ -40,7 +40,7 @@ static void a_tank_at_rest_reads_hydrostatic_values(void **state)
     sb_sim *sim;
     sb_measure *measure;
     sums s = {0};
-    assert_int_equal(sb_sim_create(&t.scene, &t.model, &sim, NULL), SB_OK);
+    assert_int_equal(sb_sim_create(&t.scene, &t.model, NULL, &sim, NULL), SB_OK);
     assert_int_equal(sb_sim_settle(sim, NULL), SB_OK);
     assert_int_equal(sb_measure_create(&t.scene, &t.model, sim, &measure, NULL), SB_OK);
     double weight = sb_sim_energy(sim).mass * 9.81;
@@ -80,7 +80,7 @@ static void a_plane_counts_every_particle(void **state)
     sb_sim *sim;
     sb_measure *measure;
     double passed = 0, before = 0, after = 0;
-    assert_int_equal(sb_sim_create(&t.scene, &t.model, &sim, NULL), SB_OK);
+    assert_int_equal(sb_sim_create(&t.scene, &t.model, NULL, &sim, NULL), SB_OK);
     assert_int_equal(sb_measure_create(&t.scene, &t.model, sim, &measure, NULL), SB_OK);
     while (sb_sim_report(sim)->time < 2) {
         before = beyond(sim, 1.5);

@@ -115,7 +115,7 @@ static sb_status draw_once(sb_error *error)
     sb_frame *frame = NULL;
     sb_status status = sb_scene_read(scene_path, NULL, NULL, 0, &scene, error);
     if (status == SB_OK) status = sb_model_build(&scene, &model, error);
-    if (status == SB_OK) status = sb_sim_create(&scene, &model, &sim, error);
+    if (status == SB_OK) status = sb_sim_create(&scene, &model, NULL, &sim, error);
     if (status == SB_OK && !(frame = sb_sim_snapshot(sim))) status = sb_fail_memory(error, "a frame");
     if (status == SB_OK) status = sb_renderer_create(&scene, &model, &renderer, error);
     if (status == SB_OK) status = sb_renderer_draw(renderer, frame, 0, &image, error);

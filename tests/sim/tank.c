@@ -261,7 +261,8 @@ sb_sim *tank_sim(const tank *t)
 {
     sb_error error = {0};
     sb_sim *sim = NULL;
-    if (sb_sim_create(&t->scene, &t->model, &sim, &error) != SB_OK) fprintf(stderr, "no simulation: %s\n", error.text);
+    if (sb_sim_create(&t->scene, &t->model, NULL, &sim, &error) != SB_OK)
+        fprintf(stderr, "no simulation: %s\n", error.text);
     return sim;
 }
 

@@ -1,7 +1,7 @@
-/* Everything that crosses the edge of the domain that this simulation computes: the values of ghosts, and sums, maxima
-   and flags over all domains. Stages use nothing else for it, so that dividing a run among domains is another row here.
-   Today the simulation is alone: its ghosts are images beyond its own periodic sides, and its sums are the global ones.
- */
+/* Everything that crosses the edge of the domain that this simulation computes: particles that move to another domain,
+   the values of ghosts, and sums and maxima over all domains. Stages use nothing else for it. A simulation is
+   alone, or one of several domains (sim/exchange/domains.h); either is a row here. All domains call these functions in
+   the same order. */
 #ifndef SB_SIM_EXCHANGE_H
 #define SB_SIM_EXCHANGE_H
 
@@ -13,24 +13,32 @@ typedef struct sb_halo {
     const void *owned;
     void *ghosts;
     size_t owned_stride, ghost_stride;
-    size_t size; /* bytes of a value: 4 or 16 */
+    size_t size;         /* bytes of a value: 4 or 16 */
+    bool without_images; /* only those of particles of other domains */
 } sb_halo;
 
 typedef struct sb_exchange {
     const char *name;
-    /* After the sort: makes the ghosts, in the order of their keys, with positions and cells. */
+    /* Before the sort: hands over the particles that are in other domains now. NULL: there are none. */
+    sb_status (*migrate)(sb_sim *sim, sb_error *error);
+    /* After the sort: makes the ghosts, each kind in the order of its keys, with positions and cells. */
     sb_status (*make_ghosts)(sb_sim *sim, sb_error *error);
+    /* After the search for neighbours, which has found them or has failed: decides whether the domains are to be cut
+     * anew. NULL: there is one. */
+    void (*balance)(sb_sim *sim, bool found);
     void (*refresh)(const sb_sim *sim, const sb_halo *halo);
     /* Adds up exact sums, and counts, of all domains. */
     void (*sum)(const sb_sim *sim, sb_exact *values, size_t count);
+    /* Adds up at most SB_SUMS_MAX sums, and returns the largest value. */
+    double (*sum_and_largest)(const sb_sim *sim, sb_exact *values, size_t count, double value);
     void (*count)(const sb_sim *sim, uint64_t *values, size_t count);
     /* The largest value of all domains; none is NaN. */
     double (*largest)(const sb_sim *sim, double value);
-    /* Whether the flag is set in any domain. */
-    bool (*any)(const sb_sim *sim, bool flag);
+    /* The status in all domains: the failure of the first that has one, with its message. */
+    sb_status (*agree)(const sb_sim *sim, sb_status own, sb_error *error);
 } sb_exchange;
 
-extern const sb_exchange sb_exchange_alone;
+extern const sb_exchange sb_exchange_alone, sb_exchange_domains;
 
 void sb_ghosts_destroy(sb_sim *sim);
 
@@ -39,5 +47,8 @@ void sb_refresh(const sb_sim *sim, sb_f4 *field);
 void sb_refresh_values(const sb_sim *sim, float *field);
 /* Sets the last lanes of the ghosts' positions to the values of their originals. */
 void sb_refresh_carried(sb_sim *sim, const float *values);
+/* Refresh only what sb_entry_owner leads to: the particles of other domains. */
+void sb_refresh_owners(const sb_sim *sim, sb_f4 *field);
+void sb_refresh_owners_values(const sb_sim *sim, float *field);
 
 #endif

@@ -27,7 +27,7 @@ double sb_sum_groups(sb_sim *sim, size_t count, sb_group_terms *of, double *tota
         }
         sb_sums_merge(sum, own, count);
     }
-    sim->exchange->sum(sim, sum, count);
+    largest = sim->exchange->sum_and_largest(sim, sum, count, largest);
     for (size_t k = 0; k < count; k++) total[k] = sb_exact_value(&sum[k]);
-    return sim->exchange->largest(sim, largest);
+    return largest;
 }

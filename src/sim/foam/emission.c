@@ -1,9 +1,11 @@
 /* New particles of foam. */
 #include "base/memory.h"
 #include "base/random.h"
+#include "sim/exchange/exchange.h"
 #include "sim/foam/foam.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double PI = 3.14159265358979323846;
 
@@ -25,12 +27,39 @@ static double thinning(const sb_sim *sim)
     uint64_t all = 0;
 #pragma omp parallel for schedule(static) reduction(+ : all)
     for (size_t i = 0; i < n; i++) all += sim->work.emission[i];
+    sim->exchange->count(sim, &all, 1);
     const double wanted = (double)all / SB_FOAM_ONE;
     return fmin(fmin(1, 2 * room / most), wanted > 0 ? room / wanted : 1);
 }
 
-/* Replaces expected numbers by whole ones, and these by the number before each. Returns their sum. */
-static size_t number(sb_sim *sim, double factor, size_t room)
+/* Numbers of new particles: before those of this domain, of this domain with those before, and of all. */
+typedef struct numbers {
+    size_t begin, end, all;
+} numbers;
+
+static size_t limited(uint64_t sum, size_t room)
+{
+    return sum < room ? (size_t)sum : room;
+}
+
+/* The numbers of the domains, from those that each would emit with enough room; sizes: bytes that each has emitted. */
+static numbers numbers_of(const sb_sim *sim, uint64_t own, size_t room, size_t *sizes)
+{
+    uint64_t all[SB_RANKS_MAX], sum = 0;
+    numbers found = {0};
+    sb_ranks_gather(sim->ranks, &own, sizeof own, all);
+    for (int r = 0; r < sb_ranks_count(sim->ranks); r++) {
+        const size_t begin = limited(sum, room), end = limited(sum + all[r], room);
+        if (r == sb_ranks_own(sim->ranks)) found = (numbers){begin, end, 0};
+        sizes[r] = (end - begin) * sizeof *sim->foam->particle;
+        sum += all[r];
+    }
+    found.all = limited(sum, room);
+    return found;
+}
+
+/* Replaces expected numbers by whole ones, and these by the number before each. */
+static numbers number(sb_sim *sim, double factor, size_t room, size_t *sizes)
 {
     const size_t n = sim->state.n;
     uint32_t *emission = sim->work.emission;
@@ -38,13 +67,16 @@ static size_t number(sb_sim *sim, double factor, size_t room)
     for (size_t i = 0; i < n; i++)
         if (emission[i] > 0)
             emission[i] = (uint32_t)(factor * emission[i] / SB_FOAM_ONE + random_of(sim, sim->state.id[i], WHETHER));
-    size_t sum = 0;
+    uint64_t own = 0;
+    for (size_t i = 0; i < n; i++) own += emission[i];
+    const numbers found = numbers_of(sim, own, room, sizes);
+    size_t sum = found.begin;
     for (size_t i = 0; i < n; i++) {
         const uint32_t one = emission[i];
         emission[i] = (uint32_t)sum;
         sum += one <= room - sum ? one : room - sum;
     }
-    return sum;
+    return found;
 }
 
 /* Two unit vectors across a velocity and each other; in 2D the second is 0. */
@@ -85,20 +117,40 @@ static sb_foam_particle new_particle(const sb_sim *sim, size_t i, uint32_t k)
     return made;
 }
 
+/* Gives all domains the new particles of each. Returns 0, or -1 without memory in any domain. */
+static int share_new(sb_sim *sim, numbers new, const size_t *sizes)
+{
+    sb_foam *foam = sim->foam;
+    if (!sb_ranks_several(sim->ranks)) return 0;
+    const size_t length = sizes[sim->ranks->rank];
+    sb_foam_particle *own = sb_alloc_untouched(length, 1);
+    if (!sb_ranks_any(sim->ranks, !own)) {
+        if (length > 0) memcpy(own, foam->particle + foam->count + new.begin, length);
+        sb_ranks_spread(sim->ranks, own, foam->particle + foam->count, sizes);
+        sb_free(own);
+        return 0;
+    }
+    sb_free(own);
+    return -1;
+}
+
 int sb_foam_emit(sb_sim *sim)
 {
     sb_foam *foam = sim->foam;
     const size_t n = sim->state.n, room = (size_t)sim->scene->foam.most - foam->count;
     const uint32_t *emission = sim->work.emission;
-    const size_t sum = number(sim, thinning(sim), room);
-    if (sb_grow((void **)&foam->particle, &foam->capacity, foam->count + sum, sizeof *foam->particle) != 0) return -1;
+    size_t sizes[SB_RANKS_MAX];
+    const numbers new = number(sim, thinning(sim), room, sizes);
+    const int grown = sb_grow((void **)&foam->particle, &foam->capacity, foam->count + new.all, sizeof *foam->particle);
+    if (sb_ranks_any(sim->ranks, grown != 0)) return -1;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
-        const uint32_t end = i + 1 < n ? emission[i + 1] : (uint32_t)sum;
+        const uint32_t end = i + 1 < n ? emission[i + 1] : (uint32_t) new.end;
         for (uint32_t k = 0; k < end - emission[i]; k++)
             foam->particle[foam->count + emission[i] + k] = new_particle(sim, i, k);
     }
-    foam->count += sum;
-    foam->next_id += (uint32_t)sum;
+    if (share_new(sim, new, sizes) != 0) return -1;
+    foam->count += new.all;
+    foam->next_id += (uint32_t) new.all;
     return 0;
 }

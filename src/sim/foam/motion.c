@@ -1,5 +1,6 @@
 /* How particles of foam move, and where they end. */
 #include "base/memory.h"
+#include "sim/exchange/domains.h"
 #include "sim/foam/foam.h"
 #include "sim/search/around.h"
 #include "sim/search/sort.h"
@@ -49,7 +50,8 @@ static void gather(const sb_sim *sim, sb_record at, vicinity *to)
             for (int dx = -1; dx <= 1; dx++) {
                 const uint64_t code = middle + sb_cell_step(dx, dy, dz);
                 add_cell(sim, &sim->cells, code, 0, corner, to);
-                if (sim->ghosts.count > 0) add_cell(sim, &sim->ghosts.cells, code, sim->state.n, corner, to);
+                if (sim->ghosts.halo > 0) add_cell(sim, &sim->ghosts.halo_cells, code, sim->state.n, corner, to);
+                if (sim->ghosts.count > 0) add_cell(sim, &sim->ghosts.cells, code, sb_images_first(sim), corner, to);
             }
 }
 
@@ -158,6 +160,7 @@ static void move_words(sb_sim *sim, const bounds *b, const uint64_t *words, size
     vicinity near;
     for (size_t k = begin; k < end; k++) {
         sb_foam_particle *p = &sim->foam->particle[sb_word_index(words[k])];
+        if (sim->domains && !sb_domains_owns(sim->domains, sb_word_key(words[k]))) continue;
         if (k == begin || sb_word_key(words[k]) != sb_word_key(words[k - 1])) gather(sim, p->position, &near);
         move_one(sim, b, look(sim, &near, p->position), p);
     }
@@ -184,17 +187,48 @@ static const uint64_t *order(sb_sim *sim)
     return sb_sort(foam->words, foam->other, n, SB_INDEX_BITS, SB_INDEX_BITS + sim->space.key_bits);
 }
 
+/* A particle that this domain has moved. */
+typedef struct moved {
+    sb_foam_particle particle;
+    uint64_t index;
+} moved;
+
+/* Gives all domains the particles that each has moved: those of its cells. Returns 0, or -1 without memory in any. */
+static int share_moved(sb_sim *sim, const uint64_t *words)
+{
+    sb_foam *foam = sim->foam;
+    sb_ranks *ranks = sim->ranks;
+    if (!sb_ranks_several(ranks)) return 0;
+    size_t sizes[SB_RANKS_MAX], own = 0, count = 0;
+    for (size_t k = 0; k < foam->count; k++) own += sb_domains_owns(sim->domains, sb_word_key(words[k]));
+    const size_t length = own * sizeof(moved);
+    sb_ranks_gather(ranks, &length, sizeof length, sizes);
+    moved *mine = sb_alloc_untouched(own, sizeof *mine), *all = sb_alloc_untouched(foam->count, sizeof *all);
+    const bool failed = sb_ranks_any(ranks, !mine || !all);
+    for (size_t k = 0; k < foam->count && !failed; k++) {
+        const size_t p = sb_word_index(words[k]);
+        if (sb_domains_owns(sim->domains, sb_word_key(words[k]))) mine[count++] = (moved){foam->particle[p], p};
+    }
+    if (!failed) sb_ranks_spread(ranks, mine, all, sizes);
+    for (size_t k = 0; k < foam->count && !failed; k++) foam->particle[all[k].index] = all[k].particle;
+    sb_free(mine);
+    sb_free(all);
+    return failed ? -1 : 0;
+}
+
 int sb_foam_move(sb_sim *sim)
 {
     sb_foam *foam = sim->foam;
     const size_t n = foam->count, chunks = (n + CHUNK - 1) / CHUNK;
     if (n == 0) return 0;
+    sb_refresh_owners(sim, sim->work.end_velocity);
     const uint64_t *words = order(sim);
     const bounds b = bounds_of(sim);
-    if (!words) return -1;
+    if (sb_ranks_any(sim->ranks, !words)) return -1;
 #pragma omp parallel for schedule(dynamic)
     for (size_t c = 0; c < chunks; c++)
         move_words(sim, &b, words, cell_from(words, c * CHUNK, n), cell_from(words, (c + 1) * CHUNK, n));
+    if (share_moved(sim, words) != 0) return -1;
     size_t kept = 0;
     for (size_t p = 0; p < n; p++)
         if (foam->particle[p].kind < SB_FOAM_KINDS) foam->particle[kept++] = foam->particle[p];

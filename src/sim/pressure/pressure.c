@@ -2,6 +2,7 @@
 #include "sim/pressure/pressure.h"
 #include "sim/simulation.h"
 
+#include "sim/exchange/exchange.h"
 #include "sim/exchange/sums.h"
 #include "sim/passes/passes.h"
 #include "sim/sea/strip.h"
@@ -88,6 +89,7 @@ sb_status sb_stage_pressure(sb_sim *sim, sb_error *error)
     set_initial_guess(sim);
     sim->work.solve = (sb_solve){.last = sim->state.sweeps, .tolerance = tolerance(sim)};
     const sb_status status = sb_pressure_solvers[sim->scene->numerics.solver]->solve(sim, error);
+    sb_refresh_owners_values(sim, sim->work.unknown);
     sim->state.sweeps = sim->work.solve.iterations;
     sim->report.tolerance = sim->work.solve.tolerance;
     sim->report.capped = sim->work.solve.capped;

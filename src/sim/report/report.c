@@ -11,7 +11,7 @@ void sb_report_update(sb_sim *sim)
     report->time_step = state->time_step;
     report->iterations = state->sweeps;
     report->max_speed = state->max_speed;
-    report->fluid_count = state->n;
+    report->fluid_count = sim->work.everywhere;
     report->left_domain = state->left_domain;
     report->lost = state->lost;
     sb_foam_count(sim->foam, report->foam);

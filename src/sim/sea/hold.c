@@ -34,7 +34,7 @@ static int learn_side(sb_sim *sim, sb_strip_side *s)
 {
     const double parts = 0x1p30 / (double)sim->constant.rest_density;
     const int64_t end = s->width + (int64_t)(SAMPLED * sim->scene->resolution / sim->space.quantum);
-    int64_t *sum = sb_alloc(2 * s->columns * s->rows, sizeof *sum);
+    uint64_t *sum = sb_alloc(2 * s->columns * s->rows, sizeof *sum);
     if (!sum) return -1;
     for (size_t i = 0; i < sim->state.n; i++) {
         const sb_record at = sim->state.position[i];
@@ -42,11 +42,13 @@ static int learn_side(sb_sim *sim, sb_strip_side *s)
         if (inwards < s->width || inwards >= end || sb_strip_side_of(sim->strip, at)) continue;
         const size_t row = still_row(sim, s, at);
         if (row == SIZE_MAX || isnan(sim->state.density_correction[i])) continue;
-        sum[2 * row] += (int64_t)nearbyint((double)sim->state.density_correction[i] * parts);
+        sum[2 * row] += (uint64_t)(int64_t)nearbyint((double)sim->state.density_correction[i] * parts);
         sum[2 * row + 1]++;
     }
+    sim->exchange->count(sim, sum, 2 * s->columns * s->rows);
     for (size_t k = 0; k < s->columns * s->rows; k++)
-        if (sum[2 * k + 1] > 0) s->correction[k] = (float)((double)sum[2 * k] / parts / (double)sum[2 * k + 1]);
+        if (sum[2 * k + 1] > 0)
+            s->correction[k] = (float)((double)(int64_t)sum[2 * k] / parts / (double)sum[2 * k + 1]);
     sb_free(sum);
     return 0;
 }

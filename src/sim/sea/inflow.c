@@ -2,6 +2,7 @@
    has come in through it, in particles, less the particles that have come in, or plus those that have left. It lets one
    in when half a particle is owed: water that turns round brings back a particle where one has left. */
 #include "base/memory.h"
+#include "sim/exchange/domains.h"
 #include "sim/sea/strip.h"
 #include "sim/search/sort.h"
 #include "sim/step/ledger.h"
@@ -52,6 +53,7 @@ static void count_leaving(sb_sim *sim, sb_strip_side *s)
         const size_t row = sb_strip_row(z, given.bed, given.surface, s->row_count[column]);
         __atomic_fetch_add(&s->left[column * s->rows + row], 1u, __ATOMIC_RELAXED);
     }
+    sim->exchange->count(sim, s->left, s->columns * s->rows);
 }
 
 /* Makes room for more particles. Returns 0, or -1 without memory. */
@@ -71,26 +73,38 @@ typedef struct entry {
     float correction;
 } entry;
 
-static sb_status let_in(sb_sim *sim, const entry *e, sb_error *error)
+/* Appends the particle, in the domain that has the place. */
+static sb_status append(sb_sim *sim, sb_record at, sb_f4 velocity, float correction, sb_error *error)
 {
     sb_state *state = &sim->state;
     const size_t i = state->n;
+    if (sim->domains && !sb_domains_owns(sim->domains, sb_space_key(&sim->space, at))) return SB_OK;
+    if (i + 1 >= (size_t)1 << SB_INDEX_BITS || make_room(sim, i + 1) != 0)
+        return sb_fail_memory(error, "particles that come in from the sea");
+    state->position[i] = at;
+    state->velocity[i] = velocity;
+    state->id[i] = state->next_id;
+    if (state->density_correction) state->density_correction[i] = correction;
+    sb_steady_stress_clear(state, i);
+    state->n++;
+    return SB_OK;
+}
+
+static sb_status let_in(sb_sim *sim, const entry *e, sb_error *error)
+{
+    sb_state *state = &sim->state;
     if (state->next_id == UINT32_MAX)
         return sb_fail(error, SB_FAILED, "step %llu: 2^32 particles have come in: no numbers are left",
                        (unsigned long long)state->step + 1);
-    if (i + 1 >= (size_t)1 << SB_INDEX_BITS || make_room(sim, i + 1) != 0)
-        return sb_fail_memory(error, "particles that come in from the sea");
     const double *v = e->given->velocity, mass = (double)sim->constant.mass;
-    state->position[i] = sb_space_record(&sim->space, e->at);
-    state->velocity[i] = (sb_f4){(float)v[0], (float)v[1], (float)v[2], (float)e->given->pressure};
-    state->id[i] = state->next_id++;
-    if (state->density_correction) state->density_correction[i] = e->correction;
-    sb_steady_stress_clear(state, i);
-    state->n++;
-    const sb_f4 has = state->velocity[i];
+    const sb_record at = sb_space_record(&sim->space, e->at);
+    const sb_f4 has = {(float)v[0], (float)v[1], (float)v[2], (float)e->given->pressure};
+    const sb_status status = append(sim, at, has, e->correction, error);
+    if (status != SB_OK) return status;
+    state->next_id++;
     const double square = sb_ledger_work((sb_f4){0}, has, has, has);
     const double base = sim->model->min.z - sim->space.origin.z;
-    const double height = state->position[i][2] * sim->space.quantum - base;
+    const double height = at[2] * sim->space.quantum - base;
     const double energy = mass * (0.5 * square + (double)sim->constant.gravity * height);
     state->ledger.sea += energy;
     state->crossing.in++;
@@ -126,6 +140,7 @@ static void count_content(sb_sim *sim, sb_strip_side *s)
         if (inwards < 0 || inwards >= s->width) continue;
         __atomic_fetch_add(&s->content[sb_strip_column(sim, s, sb_strip_along(sim, s, at))], 1, __ATOMIC_RELAXED);
     }
+    sim->exchange->count(sim, s->content, s->columns);
 }
 
 /* Particles of the strip near its outer edge, and those that have come in in this step: whose order has no meaning. */
@@ -141,6 +156,26 @@ static int add_to_edge(edge *e, sb_vec3 at)
     return 0;
 }
 
+/* Adds the particles of other domains. Returns 0, or -1 if any domain has no memory. */
+static int share_edge(const sb_sim *sim, edge *e, bool failed)
+{
+    sb_ranks *ranks = sim->ranks;
+    if (!sb_ranks_several(ranks)) return failed ? -1 : 0;
+    size_t sizes[SB_RANKS_MAX], all = 0;
+    const size_t own = e->count * sizeof *e->at;
+    sb_ranks_gather(ranks, &own, sizeof own, sizes);
+    for (int r = 0; r < ranks->count; r++) all += sizes[r];
+    sb_vec3 *at = sb_alloc_untouched(all, 1);
+    failed = sb_ranks_any(ranks, failed || !at);
+    if (!failed) {
+        sb_ranks_spread(ranks, e->at, at, sizes);
+        sb_free(e->at);
+        *e = (edge){at, all / sizeof *at, all / sizeof *at};
+    } else
+        sb_free(at);
+    return failed ? -1 : 0;
+}
+
 static int find_edge(const sb_sim *sim, const sb_strip_side *s, edge *e)
 {
     const int64_t within = (int64_t)(EDGE * sim->scene->resolution / sim->space.quantum);
@@ -153,7 +188,7 @@ static int find_edge(const sb_sim *sim, const sb_strip_side *s, edge *e)
 #pragma omp critical(sb_edge)
         failed = add_to_edge(e, sb_space_position(&sim->space, sim->state.position[i])) != 0 || failed;
     }
-    return failed ? -1 : 0;
+    return share_edge(sim, e, failed);
 }
 
 /* Distance to the nearest particle at the edge, with the spacings of a column's rows along each axis as unit. */
@@ -230,7 +265,7 @@ static sb_status advance_column(sb_sim *sim, sb_strip_side *s, edge *near, size_
         const double z = bed + (row + 0.5) * depth / rows;
         sb_strip_given(sim, s, t, 0, along, z, &given);
         const double u = sign * given.velocity[s->axis];
-        *owed += u * dt * per_metre * (u > 0 ? 1 + more : 1) + s->left[column * s->rows + (size_t)row];
+        *owed += u * dt * per_metre * (u > 0 ? 1 + more : 1) + (double)s->left[column * s->rows + (size_t)row];
         if (!(u > 0) || *owed < 0) continue;
         entry e = {.given = &given, .correction = correction_of(s, column, (size_t)row)};
         e.at = sb_model_sea_place(sim->model, s->side, fmin(fmax(*owed - 0.5, 0) / per_metre, u * dt), along);
@@ -257,6 +292,7 @@ sb_status sb_stage_inflow(sb_sim *sim, sb_error *error)
         if (find_edge(sim, s, &near) != 0) status = sb_fail_memory(error, "particles at a side");
         for (size_t column = 0; column < s->columns && status == SB_OK; column++)
             status = advance_column(sim, s, &near, column, error);
+        status = sim->exchange->agree(sim, status, error);
         sb_free(near.at);
     }
     return status;

@@ -1,6 +1,7 @@
 /* The outgoing wave inside of a strip. Its characteristic u - 2 sqrt(g h) is that of the water there less that of the
    given water at the same place. A filter of second order removes what is faster than the water can measure; its delay
    is the time that a wave takes to the strip's inner edge. */
+#include "sim/exchange/exchange.h"
 #include "sim/sea/strip.h"
 
 #include <math.h>
@@ -61,7 +62,8 @@ static void add_particle(sb_sim *sim, const sb_strip_side *s, size_t i)
         const double u = s->side % 2 ? -(double)v[s->axis] : (double)v[s->axis];
         const double terms[SB_STATION_SUMS] = {w * PARTS, w * u * scale};
         for (size_t n = 0; n < SB_STATION_SUMS; n++)
-            __atomic_fetch_add(&s->sums[k * SB_STATION_SUMS + n], (int64_t)nearbyint(terms[n]), __ATOMIC_RELAXED);
+            __atomic_fetch_add(&s->sums[k * SB_STATION_SUMS + n], (uint64_t)(int64_t)nearbyint(terms[n]),
+                               __ATOMIC_RELAXED);
     }
 }
 
@@ -80,6 +82,8 @@ static void add_all(sb_sim *sim)
             if (inwards < s->width || (double)inwards * sim->space.quantum >= farthest) continue;
             add_particle(sim, s, i);
         }
+    for (size_t k = 0; k < strip->count; k++)
+        sim->exchange->count(sim, strip->side[k].sums, strip->side[k].stations * SB_STATION_SUMS);
 }
 
 /* The volume below a level at a station, weighted, and its derivative: the wet area. */
@@ -169,7 +173,7 @@ static void advance(sb_outgoing *o, double now, double delay, double crossing, d
 static void measure_station(sb_sim *sim, const sb_strip_side *s, size_t station)
 {
     sb_outgoing *o = &s->station[station];
-    const int64_t *sums = s->sums + station * SB_STATION_SUMS;
+    const int64_t *sums = (const int64_t *)s->sums + station * SB_STATION_SUMS;
     const double g = (double)sim->constant.gravity, dr = sim->scene->resolution, dt = sim->state.time_step;
     const double particle = sim->constant.dimension == 2 ? dr * dr : dr * dr * dr;
     const double count = (double)sums[0] / PARTS, volume = count * particle;

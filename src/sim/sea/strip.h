@@ -24,15 +24,15 @@ typedef struct sb_strip_side {
     size_t stations;                    /* where the outgoing wave is measured */
     double station_from, station_pitch; /* m, along the side, without the strips of neighbouring sides */
     sb_outgoing *station;               /* state */
-    int64_t *sums;                      /* stations * SB_STATION_SUMS, of a step */
+    uint64_t *sums;                     /* stations * SB_STATION_SUMS, of a step */
     size_t columns;                     /* lines of cells inwards, at whose outer end particles come in */
     size_t rows;                        /* room for rows in a column */
     int *row_count;                     /* state: rows of a column; its particles are that many layers deep */
     int *still_rows;                    /* the same at rest */
     double *owed;      /* state: columns * rows, water that has come in, in particles, less particles that have */
     float *correction; /* state: columns * rows at rest, density correction; NAN: not known */
-    int64_t *content;  /* columns, particles in the strip in this step */
-    uint32_t *left;    /* columns * rows, particles that left in this step */
+    uint64_t *content; /* columns, particles in the strip in this step */
+    uint64_t *left;    /* columns * rows, particles that left in this step */
 } sb_strip_side;
 
 enum { SB_STATION_SUMS = 2 };

@@ -205,10 +205,11 @@ SB_INLINE sb_f4 sb_slopes(const sb_four_pairs *four)
     return root * root;
 }
 
-/* The owned particle that an entry of the arrays around is, or is a ghost of. */
+/* The particle, owned or of another domain, that an entry of the arrays around is, or is an image of. */
 SB_INLINE uint32_t sb_entry_owner(const sb_sim *sim, uint32_t entry)
 {
-    return entry < sim->state.n ? entry : sim->ghosts.of[entry - sim->state.n];
+    const size_t images = sb_images_first(sim);
+    return entry < images ? entry : sim->ghosts.of[entry - images];
 }
 
 /* Particle i's pairs at edges: their part of the sum of m (q_i + q_j) grad W, and of the sum of m (f_i - f_j) . grad W.

@@ -1,5 +1,7 @@
 #include "sim/search/departures.h"
 
+#include "base/ranks.h"
+
 #include <math.h>
 
 const sb_departures *sb_sim_departures(const sb_sim *sim)
@@ -7,13 +9,12 @@ const sb_departures *sb_sim_departures(const sb_sim *sim)
     return &sim->state.departures;
 }
 
-void sb_departures_note(sb_sim *sim, sb_exit way, size_t particle)
+void sb_departures_note(const sb_sim *sim, sb_exit way, size_t particle, sb_departures *here)
 {
-    sb_departures *all = &sim->state.departures;
     const sb_f4 v = sim->state.velocity[particle];
-    all->by_side[way.side]++;
-    if (all->count == SB_DEPARTURES) return;
-    all->first[all->count++] = (sb_departure){
+    here->by_side[way.side]++;
+    if (here->count == SB_DEPARTURES) return;
+    here->first[here->count++] = (sb_departure){
         .time = sim->state.time,
         .position = sb_space_position(&sim->space, sim->state.position[particle]),
         .speed = (double)sqrtf(sb_sum3(v * v)),
@@ -21,6 +22,44 @@ void sb_departures_note(sb_sim *sim, sb_exit way, size_t particle)
         .side = way.side,
         .lost = way.lost,
     };
+}
+
+static void append(sb_departures *all, const sb_departures *some)
+{
+    for (int side = 0; side < SB_SIDES; side++) all->by_side[side] += some->by_side[side];
+    for (size_t k = 0; k < some->count && all->count < SB_DEPARTURES; k++) all->first[all->count++] = some->first[k];
+}
+
+/* The notes of all domains, in the order of the ids. */
+static sb_departures merge(sb_ranks *ranks, const sb_departures *here)
+{
+    sb_departures all[SB_RANKS_MAX], merged = {.count = 0};
+    size_t at[SB_RANKS_MAX] = {0};
+    sb_ranks_gather(ranks, here, sizeof *here, all);
+    for (int r = 0; r < ranks->count; r++)
+        for (int side = 0; side < SB_SIDES; side++) merged.by_side[side] += all[r].by_side[side];
+    while (merged.count < SB_DEPARTURES) {
+        const sb_departure *next = NULL;
+        int of = 0;
+        for (int r = 0; r < ranks->count; r++) {
+            const sb_departure *one = &all[r].first[at[r]];
+            if (at[r] < all[r].count && (!next || one->particle < next->particle)) next = one, of = r;
+        }
+        if (!next) break;
+        merged.first[merged.count++] = *next;
+        at[of]++;
+    }
+    return merged;
+}
+
+void sb_departures_add(sb_sim *sim, const sb_departures *here)
+{
+    if (!sb_ranks_several(sim->ranks)) {
+        append(&sim->state.departures, here);
+        return;
+    }
+    const sb_departures merged = merge(sim->ranks, here);
+    append(&sim->state.departures, &merged);
 }
 
 void sb_departures_save(const sb_sim *sim, sb_archive_out *out)

@@ -10,8 +10,11 @@ typedef struct sb_exit {
     bool lost;
 } sb_exit;
 
-/* Records one particle that left, at the start of a step. Records are in the order of the calls. */
-void sb_departures_note(sb_sim *sim, sb_exit way, size_t particle);
+/* Notes one particle of this domain that left, at the start of a step. The notes of a step are in the order of the ids,
+   and only the first ones are kept. */
+void sb_departures_note(const sb_sim *sim, sb_exit way, size_t particle, sb_departures *here);
+/* Appends the notes of a step, of all domains, to the record. */
+void sb_departures_add(sb_sim *sim, const sb_departures *here);
 
 void sb_departures_save(const sb_sim *sim, sb_archive_out *out);
 void sb_departures_load(sb_sim *sim, sb_archive_in *in);

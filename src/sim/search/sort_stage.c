@@ -158,25 +158,32 @@ static void swap(sb_sim *sim, size_t a, size_t b)
 static void note_departures(sb_sim *sim, const bounds *b, size_t first)
 {
     size_t seawards = first; /* particles that leave to a given sea come first */
+    sb_departures here = {.count = 0};
     for (size_t i = first; i < sim->state.n; i++) {
         const sb_exit way = outside(sim, b, sim->state.position[i]);
-        const bool sea = sim->scene->domain.side[way.side] == SB_SIDE_SEA;
-        if (sea) swap(sim, i, seawards++);
+        if (sim->scene->domain.side[way.side] == SB_SIDE_SEA)
+            swap(sim, i, seawards++);
+        else
+            sb_departures_note(sim, way, i, &here);
     }
-    for (size_t i = seawards; i < sim->state.n; i++)
-        sb_departures_note(sim, outside(sim, b, sim->state.position[i]), i);
+    sb_departures_add(sim, &here);
     if (!sim->policy->runs) return;
-    if (seawards > first) sb_ledger_cross(sim, first, seawards);
+    if (sim->needs.sea) sb_ledger_cross(sim, first, seawards);
     sb_ledger_leave(sim, seawards, sim->state.n);
 }
 
 sb_status sb_stage_sort(sb_sim *sim, sb_error *error)
 {
     const bounds b = domain_bounds(sim);
+    if (sim->exchange->migrate) {
+        const sb_status status = sim->exchange->migrate(sim, error);
+        if (status != SB_OK) return status;
+    }
     const size_t stay = make_words(sim, &b);
     uint64_t *sorted = sb_sort(sim->work.sort_words, sim->work.sort_other, sim->state.n, SB_INDEX_BITS,
                                SB_INDEX_BITS + sim->space.key_bits);
-    if (!sorted) return sb_fail_memory(error, "sorting");
+    const sb_status status = sim->exchange->agree(sim, sorted ? SB_OK : sb_fail_memory(error, "sorting"), error);
+    if (status != SB_OK) return status;
     order_cells(sim, sorted);
     permute(sim, sorted);
     note_departures(sim, &b, stay);

@@ -3,18 +3,21 @@
    the process and are not saved. */
 #include "base/archive.h"
 #include "base/memory.h"
+#include "sim/exchange/domains.h"
 #include "sim/foam/foam.h"
 #include "sim/report/report.h"
 #include "sim/sea/strip.h"
 #include "sim/search/departures.h"
 #include "sim/search/sort.h"
 #include "sim/simulation.h"
+#include "sim/state/gather.h"
 #include "sim/step/settle.h"
 #include "sim/walls/absorber.h"
 #include "sim/walls/walls.h"
 #include "sim/wcsph/wcsph.h"
 
 #include <math.h>
+#include <string.h>
 
 #define SECTION "sim"
 
@@ -85,18 +88,30 @@ static void take_settle(sb_archive_in *in, const sb_scene *scene, sb_settle *set
                           most);
 }
 
+/* Writes the fields of the particles of all domains. */
+static void put_particles(const sb_sim *sim, sb_archive_out *out)
+{
+    sb_shares shares;
+    sb_gather_shares(sim, &shares);
+    for (const sb_state_field *f = sb_state_fields; f->name; f++)
+        if (!f->apart) sb_gather_list(sim, &shares, out, sb_state_entries(&sim->state, f), f->size);
+}
+
 void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
 {
+    if (sb_ranks_own(sim->ranks) > 0) {
+        put_particles(sim, NULL);
+        sb_wcsph_save(sim, NULL);
+        sb_sim_hash(sim);
+        return;
+    }
     sb_archive_section(out, SECTION);
     put_progress(out, &sim->state, &sim->report);
     put_settle(out, &sim->state.settle);
     sb_put_count(out, sim->state.left_domain);
     sb_put_count(out, sim->state.lost);
     sb_departures_save(sim, out);
-    for (const sb_state_field *f = sb_state_fields; f->name; f++) {
-        const void *entries = sb_state_entries(&sim->state, f);
-        if (!f->apart) sb_put_list(out, entries, entries ? sim->state.n : 0, f->size);
-    }
+    put_particles(sim, out);
     sb_put_list(out, sim->state.impulse, sim->model->body_count, sizeof *sim->state.impulse);
     sb_put_list(out, &sim->state.ledger, sizeof sim->state.ledger / sizeof(double), sizeof(double));
     sb_strip_save(sim, out);
@@ -131,19 +146,44 @@ static void check_particles(const sb_sim *sim, size_t n, sb_archive_in *in)
     }
 }
 
+/* Room for n particles. */
+static void make_room(sb_sim *sim, size_t n, sb_archive_in *in)
+{
+    sb_state *state = &sim->state;
+    if (n > state->owned && (sb_state_grow(state, 0, n) != 0 ||
+                             sb_work_create(&sim->work, &sim->needs, state->owned, state->capacity) != 0))
+        sb_archive_refuse(in, "%zu particles: not enough memory", n);
+}
+
+static sb_record place_in_list(const sb_sim *sim, const void *list, size_t i)
+{
+    sb_record at;
+    (void)sim;
+    memcpy(&at, (const char *)list + i * sizeof at, sizeof at);
+    return at;
+}
+
+/* Takes this domain's part of the saved particles: as many as another one has, in their order. The cuts follow from all
+   positions; the next sort takes the particles there. */
 static void take_particles(sb_sim *sim, sb_archive_in *in)
 {
     sb_state *state = &sim->state;
     const size_t most = sim->needs.sea ? ((size_t)1 << SB_INDEX_BITS) - 1 : sim->model->fluid_count;
-    const size_t n = sb_take_length(in, sizeof *state->position, most);
-    if (n > state->owned && (sb_state_grow(state, 0, n) != 0 ||
-                             sb_work_create(&sim->work, &sim->needs, state->owned, state->capacity) != 0))
-        sb_archive_refuse(in, "%zu particles: not enough memory", n);
+    const size_t all = sb_take_length(in, sizeof *state->position, most);
+    const size_t n = sb_gather_part(sim, all).count;
+    const void *positions = NULL;
+    sim->work.everywhere = all;
+    make_room(sim, n, in);
     for (const sb_state_field *f = sb_state_fields; f->name; f++) {
-        void *entries = sb_state_entries(state, f);
-        if (!f->apart) sb_take_list(in, entries, entries ? n : 0, f->size);
+        if (f->apart) continue;
+        const void *list = sb_take_part(sim, in, sb_state_entries(state, f), f->size);
+        if (f == sb_state_fields) positions = list;
     }
     state->n = in->error.status == SB_OK ? n : 0;
+    sim->work.everywhere = in->error.status == SB_OK ? all : 0;
+    if (!sim->domains) return;
+    if (sb_domains_agree(sim, in->error.status, &in->error) == SB_OK)
+        sb_domains_cut(sim, place_in_list, positions, all, &in->error);
 }
 
 /* In quanta: the largest displacement of a body, far outside of any domain. */
@@ -208,6 +248,7 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
                           (unsigned long long)expected);
     if (status == SB_OK) status = sb_archive_leave(in, error);
     if (status == SB_OK) status = sb_walls_restore(sim, error);
+    status = sim->exchange->agree(sim, status, error);
     /* The lists and cells belong to the old particles: there are none until the next step. */
     sim->work.lists_current = sim->work.virial_known = false;
     sb_report_update(sim);

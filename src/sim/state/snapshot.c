@@ -1,22 +1,10 @@
-/* Output of the simulation: frames for consumers, samples for gauges and probes. */
+/* Frames for consumers. */
+#include "base/memory.h"
 #include "sim/foam/foam.h"
-#include "sim/simulation.h"
+#include "sim/state/gather.h"
+#include "sim/state/particle.h"
 
-#include <math.h>
 #include <stdio.h>
-
-typedef struct particle {
-    sb_record position;
-    sb_f4 velocity;          /* last lane: the solver pressure */
-    float pressure, density; /* pressure: the virial pressure if known, else the solver pressure */
-    uint32_t id;
-} particle;
-
-static particle particle_at(const sb_sim *sim, size_t i)
-{
-    const float pressure = sim->work.virial_known ? sim->work.virial[i] : sim->state.velocity[i][3];
-    return (particle){sim->state.position[i], sim->state.velocity[i], pressure, sim->work.density[i], sim->state.id[i]};
-}
 
 /* Density sums do not exist before the first step. */
 static float density_error(const sb_sim *sim, float density)
@@ -24,24 +12,25 @@ static float density_error(const sb_sim *sim, float density)
     return sim->work.lists_current ? density / sim->constant.rest_density - 1 : 0;
 }
 
-sb_frame *sb_sim_snapshot(const sb_sim *sim)
+/* NULL without memory. */
+static sb_frame *create_frame(const sb_sim *sim, size_t count)
 {
-    const sb_model *model = sim->model;
-    const size_t count = sim->state.n;
-    sb_frame *frame = sb_frame_create(count, model->body_count);
-    if (!frame) return NULL;
-    if (sb_foam_fill(sim, frame) != 0 ||
-        (sb_scene_shows_density_error(sim->scene) && !sb_frame_add_density_error(frame))) {
+    sb_frame *frame = sb_frame_create(count, sim->model->body_count);
+    if (frame && sb_scene_shows_density_error(sim->scene) && !sb_frame_add_density_error(frame)) {
         sb_frame_release(frame);
         return NULL;
     }
-    const sb_vec3 shift = sb_sub(sim->space.origin, model->min);
+    return frame;
+}
+
+static void fill_particles(const sb_sim *sim, sb_frame *frame)
+{
+    const sb_vec3 shift = sb_sub(sim->space.origin, sim->model->min);
     const double quantum = sim->space.quantum;
-    frame->origin = model->min;
-    frame->spacing = sim->scene->resolution;
+    const size_t count = sim->state.n;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < count; i++) {
-        const particle p = particle_at(sim, i);
+        const sb_particle p = sb_particle_at(sim, i);
         sb_record x = sb_space_wrap(&sim->space, p.position);
         frame->position[3 * i] = (float)(x[0] * quantum + shift.x);
         frame->position[3 * i + 1] = (float)(x[1] * quantum + shift.y);
@@ -51,6 +40,11 @@ sb_frame *sb_sim_snapshot(const sb_sim *sim)
         frame->id[i] = p.id;
         if (frame->density_error) frame->density_error[i] = density_error(sim, p.density);
     }
+}
+
+static void fill_bodies(const sb_sim *sim, sb_frame *frame)
+{
+    const sb_model *model = sim->model;
     for (size_t b = 0; b < model->body_count; b++) {
         sb_frame_body *body = &frame->bodies[b];
         snprintf(body->name, sizeof body->name, "%s", model->bodies[b].name);
@@ -59,6 +53,12 @@ sb_frame *sb_sim_snapshot(const sb_sim *sim)
         if (m != UINT32_MAX) body->velocity = sim->walls.moving[m].velocity;
         body->report = model->bodies[b].report;
     }
+}
+
+static void fill_status(const sb_sim *sim, sb_frame *frame)
+{
+    frame->origin = sim->model->min;
+    frame->spacing = sim->scene->resolution;
     frame->status = (sb_frame_status){
         .step = sim->state.step,
         .time = sim->state.time,
@@ -69,116 +69,58 @@ sb_frame *sb_sim_snapshot(const sb_sim *sim)
         .max_speed = sim->state.max_speed,
         .lost_particles = sim->state.lost,
     };
+}
+
+/* Gathers the frames of all domains in that of the first; `all` is empty in the others. */
+static void gather(const sb_sim *sim, const sb_shares *shares, sb_frame *own, sb_frame *all)
+{
+    enum { VECTOR = 3 * sizeof(float) };
+    sb_gather_first(sim, shares, own->position, VECTOR, all->position);
+    sb_gather_first(sim, shares, own->velocity, VECTOR, all->velocity);
+    sb_gather_first(sim, shares, own->pressure, sizeof *own->pressure, all->pressure);
+    sb_gather_first(sim, shares, own->id, sizeof *own->id, all->id);
+    if (own->density_error)
+        sb_gather_first(sim, shares, own->density_error, sizeof *own->density_error, all->density_error);
+}
+
+/* NULL without memory in any domain. */
+static sb_frame *snapshot_of_all(const sb_sim *sim)
+{
+    sb_shares shares;
+    sb_gather_shares(sim, &shares);
+    const bool first = sb_ranks_own(sim->ranks) == 0;
+    sb_frame *own = create_frame(sim, sim->state.n), *all = create_frame(sim, first ? (size_t)shares.all : 0);
+    if (sb_ranks_any(sim->ranks, !own || !all)) {
+        sb_frame_release(all);
+        all = NULL;
+    } else {
+        fill_particles(sim, own);
+        gather(sim, &shares, own, all);
+    }
+    const bool failed = all && first && sb_foam_fill(sim, all) != 0;
+    if (sim->foam && sb_ranks_any(sim->ranks, failed)) {
+        sb_frame_release(all);
+        all = NULL;
+    }
+    sb_frame_release(own);
+    return all;
+}
+
+sb_frame *sb_sim_snapshot(const sb_sim *sim)
+{
+    sb_frame *frame;
+    if (sb_ranks_several(sim->ranks))
+        frame = snapshot_of_all(sim);
+    else {
+        frame = create_frame(sim, sim->state.n);
+        if (frame && sb_foam_fill(sim, frame) != 0) {
+            sb_frame_release(frame);
+            frame = NULL;
+        }
+        if (frame) fill_particles(sim, frame);
+    }
+    if (!frame) return NULL;
+    fill_bodies(sim, frame);
+    fill_status(sim, frame);
     return frame;
-}
-
-static sb_fluid_sample sample_at(const sb_sim *sim, size_t i, sb_vec3 position)
-{
-    const particle p = particle_at(sim, i);
-    const sb_f4 v = p.velocity;
-    /* Density sums do not exist before the first step. */
-    const double density = (double)(sim->work.lists_current ? p.density : sim->constant.rest_density);
-    return (sb_fluid_sample){
-        .position = position,
-        .velocity = sb_vec((double)v[0], (double)v[1], (double)v[2]),
-        .pressure = (double)p.pressure,
-        .density = density,
-        .id = p.id,
-    };
-}
-
-sb_fluid_sample sb_sim_particle(const sb_sim *sim, size_t i)
-{
-    sb_record place = sb_space_wrap(&sim->space, particle_at(sim, i).position);
-    return sample_at(sim, i, sb_space_position(&sim->space, place));
-}
-
-/* Cell index of a coordinate, limited to the grid. */
-static int64_t cell_index(const sb_space *space, double distance, int axis)
-{
-    double index = floor(distance / space->cell);
-    double most = (double)((int64_t)1 << space->bits[axis]) - 1;
-    return (int64_t)(index < 0 ? 0 : index > most ? most : index);
-}
-
-/* Least range of images beyond a periodic side, in spacings: gauges need four, and particles move within a step. */
-static const double IMAGES_RANGE = 8;
-
-typedef struct query {
-    sb_vec3 min, max;
-    sb_fluid_sample *samples;
-    size_t capacity, found;
-} query;
-
-static bool within(const query *q, sb_vec3 p)
-{
-    return p.x >= q->min.x && p.y >= q->min.y && p.z >= q->min.z && p.x <= q->max.x && p.y <= q->max.y &&
-           p.z <= q->max.z;
-}
-
-/* Position of a particle's image, `away` quanta from it. */
-static sb_vec3 image_place(const sb_space *space, sb_record record, const int64_t away[3])
-{
-    return sb_vec(space->origin.x + (double)(record[0] + away[0]) * space->quantum,
-                  space->origin.y + (double)(record[1] + away[1]) * space->quantum,
-                  space->origin.z + (double)(record[2] + away[2]) * space->quantum);
-}
-
-/* Finds the particles of one cell, numbered from `base`, whose images are in the box. */
-static void query_cell(const sb_sim *sim, query *q, const sb_cells *cells, uint64_t code, size_t base,
-                       const int64_t away[3])
-{
-    const int64_t cell = sb_cells_find(cells, code);
-    if (cell < 0) return;
-    for (size_t i = base + cells->begin[cell]; i < base + cells->begin[cell + 1]; i++) {
-        const sb_vec3 p = image_place(&sim->space, particle_at(sim, i).position, away);
-        if (!within(q, p)) continue;
-        if (q->found < q->capacity) q->samples[q->found] = sample_at(sim, i, p);
-        q->found++;
-    }
-}
-
-/* Finds the particles whose images, `away` quanta from them, are in the box. */
-static void query_images(const sb_sim *sim, query *q, const int64_t away[3])
-{
-    const sb_space *space = &sim->space;
-    /* The cells are those of the step's start: search as far around as a particle can have moved since. */
-    const double margin = sim->state.max_speed * sim->state.time_step + space->quantum;
-    const sb_vec3 low = sb_sub(q->min, space->origin), high = sb_sub(q->max, space->origin);
-    const double from[3] = {low.x, low.y, low.z}, to[3] = {high.x, high.y, high.z};
-    int64_t a[3], b[3];
-    for (int axis = 0; axis < 3; axis++) {
-        const double shift = (double)away[axis] * space->quantum;
-        const double least = from[axis] - shift - margin, most = to[axis] - shift + margin;
-        const double side = sb_space_low(space) * space->quantum, length = space->period[axis] * space->quantum;
-        if (length > 0 && (most < side || least > side + length)) return;
-        a[axis] = cell_index(space, least, axis);
-        b[axis] = cell_index(space, most, axis);
-    }
-    for (int64_t z = a[2]; z <= b[2]; z++)
-        for (int64_t y = a[1]; y <= b[1]; y++)
-            for (int64_t x = a[0]; x <= b[0]; x++) {
-                uint64_t code = (uint64_t)x | (uint64_t)y << 21 | (uint64_t)z << 42;
-                query_cell(sim, q, &sim->cells, code, 0, away);
-            }
-}
-
-size_t sb_sim_query(const sb_sim *sim, sb_vec3 min, sb_vec3 max, sb_fluid_sample *samples, size_t capacity)
-{
-    query q = {min, max, samples, capacity, 0};
-    int64_t period[3], most[3], away[3];
-    for (int axis = 0; axis < 3; axis++) {
-        period[axis] = sim->space.period[axis];
-        double length = (double)period[axis] * sim->space.quantum;
-        most[axis] = length > 0 ? 1 + (int64_t)ceil(IMAGES_RANGE * sim->scene->resolution / length) : 0;
-    }
-    for (int64_t z = -most[2]; z <= most[2]; z++)
-        for (int64_t y = -most[1]; y <= most[1]; y++)
-            for (int64_t x = -most[0]; x <= most[0]; x++) {
-                away[0] = x * period[0];
-                away[1] = y * period[1];
-                away[2] = z * period[2];
-                query_images(sim, &q, away);
-            }
-    return q.found;
 }

@@ -103,14 +103,6 @@ static sb_status check_finite(const sb_sim *sim, const char *stage_name, sb_erro
 }
 #endif
 
-/* The status of a stage in all domains: one that failed ends the step everywhere. */
-static sb_status agree(const sb_sim *sim, const char *stage_name, sb_status own, sb_error *error)
-{
-    if (!sim->exchange->any(sim, own != SB_OK) || own != SB_OK) return own;
-    return sb_fail(error, SB_FAILED, "step %llu: stage %s failed in another part of the domain",
-                   (unsigned long long)sim->state.step + 1, stage_name);
-}
-
 /* Runs the stages that have one of these halves. */
 static sb_status run_stages(sb_sim *sim, int halves, sb_error *error)
 {
@@ -123,7 +115,7 @@ static sb_status run_stages(sb_sim *sim, int halves, sb_error *error)
         if (!(stages[s].halves & halves)) continue;
         const double start = sb_clock();
         sb_work_enter(&sim->work, stages[s].phase);
-        status = agree(sim, stages[s].name, stages[s].run(sim, error), error);
+        status = sim->exchange->agree(sim, stages[s].run(sim, error), error);
         time->seconds += sb_clock() - start;
         time->calls++;
 #ifdef SB_DEBUG

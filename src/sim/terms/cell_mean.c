@@ -21,11 +21,29 @@ static void sum_cells(sb_sim *sim, const sb_cells *cells, const sb_f4 *rest, siz
     }
 }
 
+/* The sums of the first cells: owned, of the halo, of images. */
+SB_INLINE size_t halo_sums(const sb_sim *sim)
+{
+    return sim->cells.count;
+}
+
+SB_INLINE size_t image_sums(const sb_sim *sim)
+{
+    return sim->cells.count + sim->ghosts.halo_cells.count;
+}
+
 static sb_cell_sum sum_of(const sb_sim *sim, const sb_cells *cells, uint64_t code, size_t first)
 {
     const int64_t cell = sb_cells_find(cells, code);
     if (cell < 0) return (sb_cell_sum){{0}, {0}};
     return sim->work.cell_sum[first + (size_t)cell];
+}
+
+/* The sums of a cell of water, which is whole in one domain. */
+static sb_cell_sum sum_of_water(const sb_sim *sim, uint64_t code)
+{
+    const int64_t cell = sb_cells_find(&sim->cells, code);
+    return cell < 0 ? sum_of(sim, &sim->ghosts.halo_cells, code, halo_sums(sim)) : sim->work.cell_sum[cell];
 }
 
 /* The sums around cell c. Returns whether any tensor among them is not 0: beside walls and in shallow water all are. */
@@ -38,8 +56,8 @@ static bool gather(const sb_sim *sim, size_t c, sb_cell_sum around[AROUND])
         around[k] = (sb_cell_sum){{0}, {0}};
         if (dy < -layers || dy > layers) continue;
         const uint64_t code = sim->cells.code[c] + sb_cell_step(dx, dy, dz);
-        around[k] = sum_of(sim, &sim->cells, code, 0);
-        if (sim->ghosts.count > 0) around[k] = plus(around[k], sum_of(sim, &sim->ghosts.cells, code, sim->cells.count));
+        around[k] = sum_of_water(sim, code);
+        if (sim->ghosts.any) around[k] = plus(around[k], sum_of(sim, &sim->ghosts.cells, code, image_sums(sim)));
         bits |= (sb_i4)around[k].rest | ((sb_i4)around[k].more & (sb_i4){-1, 0, 0, 0});
     }
     return (bits[0] | bits[1] | bits[2] | bits[3]) != 0;
@@ -83,10 +101,11 @@ static void mean_in_cell(sb_sim *sim, size_t c, float *xx, sb_f4 *rest)
 int sb_cell_mean(sb_sim *sim, float *xx, sb_f4 *rest)
 {
     sb_work *w = &sim->work;
-    const size_t all = sim->cells.count + sim->ghosts.cells.count;
+    const size_t all = image_sums(sim) + sim->ghosts.cells.count;
     if (sb_grow((void **)&w->cell_sum, &w->cell_sum_capacity, all, sizeof *w->cell_sum) != 0) return -1;
     sum_cells(sim, &sim->cells, rest, 0, 0);
-    sum_cells(sim, &sim->ghosts.cells, rest, sim->state.n, sim->cells.count);
+    sum_cells(sim, &sim->ghosts.halo_cells, rest, sim->state.n, halo_sums(sim));
+    sum_cells(sim, &sim->ghosts.cells, rest, sb_images_first(sim), image_sums(sim));
     const size_t cells = sim->cells.count;
 #pragma omp parallel for schedule(dynamic, 64)
     for (size_t c = 0; c < cells; c++) mean_in_cell(sim, c, xx, rest);

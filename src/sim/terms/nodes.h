@@ -27,8 +27,9 @@ static inline size_t sb_nodes_stride(const sb_nodes *nodes, int axis)
     return axis == 0 ? 1 : axis == 1 ? nodes->size[0] : nodes->size[0] * nodes->size[1];
 }
 
-/* values[node] += weight of the node * field[i][3] * factor, over all owned particles. */
-void sb_nodes_give(const sb_sim *sim, const sb_nodes *nodes, const sb_f4 *field, double factor, double *values);
+/* values[node] += weight of the node * field[i][3] * factor, over the particles of all domains, each of which has the
+   same values afterwards. Returns 0, or -1 without memory. */
+int sb_nodes_give(const sb_sim *sim, const sb_nodes *nodes, const sb_f4 *field, double factor, double *values);
 
 /* The sum of weight * values[node] of particle i, for `components` <= 3 values per node. */
 void sb_nodes_take(const sb_sim *sim, const sb_nodes *nodes, size_t i, const double *values, int components,

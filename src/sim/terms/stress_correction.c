@@ -11,15 +11,15 @@
 
 enum { SUMS = 4, MEANS = 2 /* one after the other: see docs/decisions/0044 */ };
 
-/* Sums one group's changes of velocity: work (per unit of mass), momentum. Returns less the number of the first
-   particle that is too fast afterwards, -INFINITY if none is. */
+/* Sums one group's changes of velocity: work (per unit of mass), momentum. Returns less the least id of the
+   particles that are too fast afterwards, -INFINITY if none is. */
 static double sum_changes(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
 {
     const sb_f4 *next = sim->work.corrected;
     const float limit = sim->constant.speed_limit * sim->constant.speed_limit;
     double fast = (double)INFINITY;
     for (size_t i = group->first; i < group->end; i++) {
-        if (!(sb_sum3(next[i] * next[i]) <= limit)) fast = fmin(fast, (double)i);
+        if (!(sb_sum3(next[i] * next[i]) <= limit)) fast = fmin(fast, (double)sim->state.id[i]);
         terms[0] += sb_ledger_work(sim->state.velocity[i], next[i], sim->state.velocity[i], next[i]);
         for (int axis = 0; axis < 3; axis++)
             terms[1 + axis] += (double)next[i][axis] - (double)sim->state.velocity[i][axis];
@@ -48,6 +48,14 @@ static int find_stress(sb_sim *sim)
     return 0;
 }
 
+/* The failure by a particle; without a message if it is in another domain, which has the message. */
+static sb_status diverged(const sb_sim *sim, uint32_t id, sb_error *error)
+{
+    for (size_t i = 0; i < sim->state.n; i++)
+        if (sim->state.id[i] == id) return sb_sim_diverged(sim, i, sim->work.corrected[i], error);
+    return sb_fail(error, SB_FAILED, "%s", "");
+}
+
 sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
 {
     sim->passes->strain(sim);
@@ -61,8 +69,7 @@ sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
     if (sim->passes->correct(sim) != 0) return sb_fail_memory(error, "forces on bodies");
     double sum[SUMS];
     const double fast = -sb_sum_groups(sim, SUMS, sum_changes, sum);
-    if (fast < (double)sim->state.n)
-        return sb_sim_diverged(sim, (size_t)fast, sim->work.corrected[(size_t)fast], error);
+    if (fast < (double)INFINITY) return diverged(sim, (uint32_t)fast, error);
     const double mass = (double)sim->constant.mass;
     sim->state.ledger.stress += sim->policy->runs ? mass * sum[0] : 0;
     sim->work.stress_gain = sb_scale(sb_vec(sum[1], sum[2], sum[3]), mass);

@@ -115,8 +115,8 @@ static void force_row(const sb_nodes *nodes, size_t y, size_t z, const fields *f
     }
 }
 
-/* The shares of the particles, as pull[i][3], and their sums at the nodes. */
-static void find_shares(sb_sim *sim, const sb_nodes *nodes, const fields *f, double volume)
+/* The shares of the particles, as pull[i][3], and their sums at the nodes. Returns 0, or -1 without memory. */
+static int find_shares(sb_sim *sim, const sb_nodes *nodes, const fields *f, double volume)
 {
     const size_t n = sim->state.n;
 #pragma omp parallel for schedule(static)
@@ -127,8 +127,9 @@ static void find_shares(sb_sim *sim, const sb_nodes *nodes, const fields *f, dou
         sim->work.pull[i][3] = (float)(air * air);
     }
     memset(f->share, 0, nodes->count * sizeof *f->share);
-    sb_nodes_give(sim, nodes, sim->work.pull, volume, f->share);
+    if (sb_nodes_give(sim, nodes, sim->work.pull, volume, f->share) != 0) return -1;
     for (int k = 0; k < SPREADS; k++) sb_nodes_smooth(nodes, f->share, 1, f->spare);
+    return 0;
 }
 
 static void find_forces(const sb_nodes *nodes, const fields *f)
@@ -146,18 +147,19 @@ sb_status sb_stage_surface_tension(sb_sim *sim, sb_error *error)
     const sb_nodes nodes = sb_nodes_around(sim);
     const sb_constants *c = &sim->constant;
     const size_t n = sim->state.n;
-    if (n == 0) return SB_OK;
-    if (sb_grow((void **)&sim->work.node, &sim->work.node_capacity, nodes.count, SB_TENSION_VALUES * sizeof(double)) !=
-        0)
-        return sb_fail_memory(error, "the surface tension of water that is spread over so large a box");
+    static const char *const purpose = "the surface tension of water that is spread over so large a box";
+    if (sim->work.everywhere == 0) return SB_OK;
+    const int grown =
+        sb_grow((void **)&sim->work.node, &sim->work.node_capacity, nodes.count, SB_TENSION_VALUES * sizeof(double));
+    if (sb_ranks_any(sim->ranks, grown != 0)) return sb_fail_memory(error, purpose);
     const fields f = divide(sim, nodes.count);
     const double volume = pow((double)c->spacing / nodes.width, c->dimension);
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) sim->work.pull[i] = (sb_f4){0, 0, 0, 1};
     memset(f.phi, 0, nodes.count * sizeof *f.phi);
-    sb_nodes_give(sim, &nodes, sim->work.pull, volume, f.phi);
+    if (sb_nodes_give(sim, &nodes, sim->work.pull, volume, f.phi) != 0) return sb_fail_memory(error, purpose);
     for (int k = 0; k < MEANS; k++) sb_nodes_smooth(&nodes, f.phi, 1, f.spare);
-    find_shares(sim, &nodes, &f, volume);
+    if (find_shares(sim, &nodes, &f, volume) != 0) return sb_fail_memory(error, purpose);
     find_forces(&nodes, &f);
     const double unit =
         (double)c->surface_tension / ((double)c->rest_density * nodes.width * nodes.width * sb_tension_of_plane());

@@ -6,12 +6,16 @@
 
    Under a uniform pressure P is p times the packing trace, which is below 1 in settled water. P has half of the scatter
    of p, which alternates from particle to particle. The momentum balance contains P, not p. */
+#include "sim/exchange/exchange.h"
 #include "sim/passes/passes.h"
 
 void sb_sim_find_virial_pressures(sb_sim *sim)
 {
     if (sim->needs.wcsph) return; /* the equation of state gives the pressures */
     if (!sim->work.lists_current || sim->work.virial_known) return;
+    /* The pass moves all particles back to where they were when the lists were made. */
+    sb_refresh_owners(sim, (sb_f4 *)sim->state.position);
+    sb_refresh_owners(sim, sim->state.velocity);
     sb_work_enter(&sim->work, SB_PHASE_AFTER);
     sim->passes->virial(sim);
     sim->work.virial_known = true;

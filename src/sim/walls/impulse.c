@@ -18,7 +18,7 @@ sb_status sb_stage_impulse(sb_sim *sim, sb_error *error)
     const sb_wall_drag law = sb_wall_drag_make(sim);
     sb_body_sums sums = {.force = sim->work.body_force};
     if (sim->passes->bodies(sim, &law, &sums) != 0) return sb_fail_memory(error, "forces on bodies");
-    if (sim->pushes && sim->pushes->failed) return sb_fail_memory(error, "forces on walls");
+    if (sb_pushes_share(sim) != 0) return sb_fail_memory(error, "forces on walls");
     if (sim->needs.images || sim->needs.dynamic_walls)
         for (size_t v = 0; v < bodies * SB_FORCE_VALUES; v++) sim->work.body_force[v] += sim->work.stress_force[v];
     sim->work.sums.friction = sums.friction;

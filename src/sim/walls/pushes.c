@@ -62,6 +62,27 @@ void sb_pushes_clear(sb_pushes *pushes)
     pushes->failed = false;
 }
 
+int sb_pushes_share(sb_sim *sim)
+{
+    sb_ranks *ranks = sim->ranks;
+    sb_pushes *p = sim->pushes;
+    if (!p || !sb_ranks_several(ranks)) return p && p->failed ? -1 : 0;
+    size_t sizes[SB_RANKS_MAX], all = 0;
+    const size_t own = p->count * sizeof *p->list;
+    sb_ranks_gather(ranks, &own, sizeof own, sizes);
+    for (int r = 0; r < ranks->count; r++) all += sizes[r];
+    sb_wall_push *list = sb_alloc_untouched(all, 1);
+    if (sb_ranks_any(ranks, p->failed || !list)) {
+        sb_free(list);
+        return -1;
+    }
+    sb_ranks_spread(ranks, p->list, list, sizes);
+    sb_free(p->list);
+    p->list = list;
+    p->count = p->capacity = all / sizeof *list;
+    return 0;
+}
+
 void sb_pushes_destroy(sb_pushes *pushes)
 {
     if (!pushes) return;

@@ -21,6 +21,8 @@ bool sb_pushes_near(const sb_sim *sim, const sb_group *group);
 void sb_pushes_add(sb_pushes *pushes, const sb_wall_push *push);
 /* Forgets the pushes of the last step. */
 void sb_pushes_clear(sb_pushes *pushes);
+/* Adds those of the other domains. Returns 0, or -1 if memory ran out in any domain. */
+int sb_pushes_share(sb_sim *sim);
 void sb_pushes_destroy(sb_pushes *pushes);
 
 #endif

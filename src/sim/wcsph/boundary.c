@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "physics/tait.h"
+#include "sim/exchange/domains.h"
 #include "sim/passes/cpu/kernel_batch.h"
 #include "sim/search/around.h"
 #include "sim/walls/entry.h"
@@ -100,7 +101,8 @@ static surroundings around_cell(const sb_sim *sim, uint64_t code)
             for (int dx = -1; dx <= 1; dx++) {
                 const uint64_t there = code + sb_cell_step(dx, dy, dz);
                 add_range(&sim->cells, there, 0, &around);
-                if (sim->ghosts.count > 0) add_range(&sim->ghosts.cells, there, sim->state.n, &around);
+                if (sim->ghosts.halo > 0) add_range(&sim->ghosts.halo_cells, there, sim->state.n, &around);
+                if (sim->ghosts.count > 0) add_range(&sim->ghosts.cells, there, sb_images_first(sim), &around);
             }
     return around;
 }
@@ -156,9 +158,66 @@ static void find_state(sb_sim *sim, const sums_of *of, const surroundings *aroun
     b->load[number] = pressure > 0 ? pressure / (density * density) : 0;
 }
 
+/* Whether this domain computes the boundary particles of a cell: it has all water around each of its own cells. */
+static bool is_own(const sb_sim *sim, const sb_wall_set *set, size_t cell)
+{
+    return !sim->domains ||
+           sb_domains_owns(sim->domains, sb_space_key(&sim->space, set->record[set->cells.begin[cell]]));
+}
+
+/* The state of a boundary particle that a domain has computed. */
+typedef struct computed {
+    uint32_t number;
+    float excess, begin, rate, load;
+} computed;
+
+/* Writes those of this domain to `to`, if it is not NULL. Returns their number. */
+static size_t list_computed(const sb_sim *sim, computed *to)
+{
+    const sb_boundary *b = &sim->walls.boundary;
+    size_t count = 0;
+    for (uint32_t s = 0; s < SB_WALL_SETS; s++) {
+        const sb_wall_set *set = &sim->walls.set[s];
+        for (size_t c = 0; set->count > 0 && c < set->cells.count; c++)
+            for (size_t k = set->cells.begin[c]; is_own(sim, set, c) && k < set->cells.begin[c + 1]; k++) {
+                const uint32_t n = set->number[k];
+                if (n & SB_BOUNDARY_IMAGE) continue;
+                if (to) to[count] = (computed){n, b->excess[n], b->begin[n], b->rate[n], b->load[n]};
+                count++;
+            }
+    }
+    return count;
+}
+
+/* Gives all domains what each has computed. Returns 0, or -1 without memory in any domain. */
+static int share(sb_sim *sim)
+{
+    sb_ranks *ranks = sim->ranks;
+    sb_boundary *b = &sim->walls.boundary;
+    if (!sb_ranks_several(ranks)) return 0;
+    size_t sizes[SB_RANKS_MAX], all = 0;
+    const size_t own = list_computed(sim, NULL) * sizeof(computed);
+    sb_ranks_gather(ranks, &own, sizeof own, sizes);
+    for (int r = 0; r < ranks->count; r++) all += sizes[r];
+    computed *mine = sb_alloc_untouched(own, 1), *theirs = sb_alloc_untouched(all, 1);
+    const bool failed = sb_ranks_any(ranks, !mine || !theirs);
+    if (!failed) {
+        list_computed(sim, mine);
+        sb_ranks_spread(ranks, mine, theirs, sizes);
+        for (size_t k = 0; k < all / sizeof *theirs; k++) {
+            const computed *one = &theirs[k];
+            b->excess[one->number] = one->excess, b->begin[one->number] = one->begin;
+            b->rate[one->number] = one->rate, b->load[one->number] = one->load;
+        }
+    }
+    sb_free(mine);
+    sb_free(theirs);
+    return failed ? -1 : 0;
+}
+
 sb_status sb_stage_boundary(sb_sim *sim, sb_error *error)
 {
-    (void)error;
+    sb_refresh_owners_values(sim, sim->state.excess);
     const sums_of of = constants_of(sim);
     sb_boundary *all = &sim->walls.boundary;
     for (size_t k = 0; k < all->count; k++) all->rate[k] = all->load[k] = 0; /* those beyond the domain have none */
@@ -167,12 +226,13 @@ sb_status sb_stage_boundary(sb_sim *sim, sb_error *error)
         const size_t cells = set->count > 0 ? set->cells.count : 0;
 #pragma omp parallel for schedule(dynamic, 16)
         for (size_t c = 0; c < cells; c++) {
+            if (!is_own(sim, set, c)) continue;
             const surroundings around = around_cell(sim, set->cells.code[c]);
             for (size_t k = set->cells.begin[c]; k < set->cells.begin[c + 1]; k++)
                 if (!(set->number[k] & SB_BOUNDARY_IMAGE)) find_state(sim, &of, &around, s, k);
         }
     }
-    return SB_OK;
+    return share(sim) == 0 ? SB_OK : sb_fail_memory(error, "boundary particles");
 }
 
 void sb_boundary_predict(sb_sim *sim, float dt)

@@ -1,6 +1,7 @@
 /* The two halves of an explicit step, symplectic as in SPHysics: positions, velocities and densities in the middle of
    the step from those at its start; then, with the forces there, those at its end. */
 #include "physics/tait.h"
+#include "sim/exchange/exchange.h"
 #include "sim/exchange/sums.h"
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
@@ -67,6 +68,7 @@ sb_status sb_stage_wcsph_rates(sb_sim *sim, sb_error *error)
         const float density = sim->work.density[i];
         sim->work.unknown[i] = pressure_of(sim, sim->state.excess[i]) / (density * density);
     }
+    sb_refresh_owners_values(sim, sim->work.unknown);
     sb_pressure_load(sim, sim->work.unknown);
     sim->passes->accelerate(sim);
     if (sim->needs.dynamic_walls) sb_boundary_accelerate(sim);
@@ -119,7 +121,9 @@ sb_status sb_stage_wcsph_predict(sb_sim *sim, sb_error *error)
     int64_t rise = 0; /* whole numbers: their sum does not depend on the order */
 #pragma omp parallel for schedule(static) reduction(+ : rise)
     for (size_t i = 0; i < n; i++) rise += predict_one(sim, i, dt, to_quanta);
-    sim->work.first_rise = (double)rise;
+    uint64_t all = (uint64_t)rise;
+    sim->exchange->count(sim, &all, 1);
+    sim->work.first_rise = (double)(int64_t)all;
     sb_boundary_predict(sim, dt);
     return put_walls(sim, error);
 }

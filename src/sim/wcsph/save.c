@@ -1,3 +1,4 @@
+#include "sim/state/gather.h"
 #include "sim/wcsph/wcsph.h"
 
 #include <math.h>
@@ -5,7 +6,10 @@
 void sb_wcsph_save(const sb_sim *sim, sb_archive_out *out)
 {
     if (!sim->needs.wcsph) return;
-    sb_put_list(out, sim->state.excess, sim->state.n, sizeof *sim->state.excess);
+    sb_shares shares;
+    sb_gather_shares(sim, &shares);
+    sb_gather_list(sim, &shares, out, sim->state.excess, sizeof *sim->state.excess);
+    if (sb_ranks_own(sim->ranks) > 0) return;
     sb_put_list(out, sim->walls.boundary.excess, sim->walls.boundary.count, sizeof *sim->walls.boundary.excess);
 }
 
@@ -24,7 +28,7 @@ static void check(const sb_sim *sim, const char *of, bool may_be_dry, const floa
 void sb_wcsph_load(sb_sim *sim, sb_archive_in *in)
 {
     if (!sim->needs.wcsph) return;
-    sb_take_list(in, sim->state.excess, sim->state.n, sizeof *sim->state.excess);
+    sb_take_part(sim, in, sim->state.excess, sizeof *sim->state.excess);
     sb_take_list(in, sim->walls.boundary.excess, sim->walls.boundary.count, sizeof *sim->walls.boundary.excess);
     check(sim, "particle", false, sim->state.excess, sim->state.n, in);
     /* NAN: dry */

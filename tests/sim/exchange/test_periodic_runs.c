@@ -251,7 +251,7 @@ static void missing_memory_is_reported(void **state)
         sb_error error = {0};
         sb_sim *sim = NULL;
         sb_memory_fail_at(n);
-        sb_status status = sb_sim_create(&t.scene, &t.model, &sim, &error);
+        sb_status status = sb_sim_create(&t.scene, &t.model, NULL, &sim, &error);
         if (status == SB_OK) status = sb_sim_step(sim, &error);
         sb_memory_fail_at(0);
         done = status == SB_OK;

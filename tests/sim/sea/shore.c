@@ -56,7 +56,7 @@ sb_sim *shore_sim(shore *s)
 {
     sb_error error = {0};
     sb_sim *sim = NULL;
-    sb_status status = sb_sim_create(&s->scene, &s->model, &sim, &error);
+    sb_status status = sb_sim_create(&s->scene, &s->model, NULL, &sim, &error);
     if (status == SB_OK) status = sb_sim_settle(sim, &error);
     if (status == SB_OK) return sim;
     fprintf(stderr, "no simulation: %s\n", error.text);

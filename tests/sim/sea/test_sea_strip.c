@@ -196,7 +196,7 @@ static void the_same_bits(const shore_form *form, const char *sea)
     for (size_t k = 0; k < 2 + (wide != NULL); k++) {
         omp_set_num_threads(threads[k % 2]);
         sim = NULL;
-        assert_int_equal(sb_sim_create(&s.scene, &s.model, &sim, &error), SB_OK);
+        assert_int_equal(sb_sim_create(&s.scene, &s.model, NULL, &sim, &error), SB_OK);
         sim->passes = k == 2 ? wide : &sb_passes_cpu;
         if (tank_load(sim, &out, &error) != SB_OK) fail_msg("%s", error.text);
         assert_int_equal(tank_steps(sim, AFTER), 0);

@@ -95,7 +95,7 @@ static void regular_waves_travel(void **state)
         sb_error error = {0};
         double rate, kept;
         make(&t, cases[k].spacing, cases[k].wave, true);
-        if (sb_sim_create(&t.scene, &t.model, &t.sim, &error) != SB_OK) fail_msg("%s", error.text);
+        if (sb_sim_create(&t.scene, &t.model, NULL, &t.sim, &error) != SB_OK) fail_msg("%s", error.text);
         if (sb_sim_settle(t.sim, &error) != SB_OK) fail_msg("%s", error.text);
         const double theory = t.scene.wave.stokes.surface[0], made = cabs(harmonic(t.sim));
         follow(&t, 3, &rate, &kept);

@@ -126,7 +126,7 @@ static void check_empty(const sb_scene *scene, const sb_model *model)
 {
     sb_error error = {0};
     sb_sim *sim = NULL;
-    assert_int_equal(sb_sim_create(scene, model, &sim, &error), SB_OK);
+    assert_int_equal(sb_sim_create(scene, model, NULL, &sim, &error), SB_OK);
     assert_int_equal(sb_sim_settle(sim, &error), SB_OK);
     assert_int_equal(tank_steps(sim, 3), 0);
     assert_true(sb_sim_report(sim)->time > 0);
@@ -332,12 +332,12 @@ static void bad_parts_are_refused(void **state)
     tank_add_plate(&t, "paddle", -0.05, 0, 1, sb_vec(1, 0, 0), &law);
     sb_error error = {0};
     sb_sim *sim = NULL;
-    assert_int_equal(sb_sim_create(&t.scene, &t.model, &sim, &error), SB_BAD_INPUT);
+    assert_int_equal(sb_sim_create(&t.scene, &t.model, NULL, &sim, &error), SB_BAD_INPUT);
     assert_null(sim);
     assert_non_null(strstr(error.text, "stroke"));
     t.scene.wavemakers[0].law.stroke = 1;
     t.model.max.x = 1e9;
-    assert_int_equal(sb_sim_create(&t.scene, &t.model, &sim, &error), SB_BAD_INPUT);
+    assert_int_equal(sb_sim_create(&t.scene, &t.model, NULL, &sim, &error), SB_BAD_INPUT);
     assert_null(sim);
     tank_free(&t);
 }
@@ -348,7 +348,7 @@ static bool allocation_fails(const tank *t, long n)
     sb_error error = {0};
     sb_sim *sim = NULL;
     sb_memory_fail_at(n);
-    sb_status status = sb_sim_create(&t->scene, &t->model, &sim, &error);
+    sb_status status = sb_sim_create(&t->scene, &t->model, NULL, &sim, &error);
     assert_true((status == SB_OK) == (sim != NULL));
     for (int s = 0; s < 2 && status == SB_OK; s++) status = sb_sim_step(sim, &error);
     sb_memory_fail_at(0);

@@ -19,7 +19,7 @@ static void build(basin *b, const sb_override *set, size_t count)
 void basin_start(basin *b)
 {
     sb_error error = {0};
-    if (sb_sim_create(&b->scene, &b->model, &b->sim, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sb_sim_create(&b->scene, &b->model, NULL, &b->sim, &error) != SB_OK) fail_msg("%s", error.text);
 }
 
 void basin_fill_from(basin *b, const sb_override *set, size_t count)

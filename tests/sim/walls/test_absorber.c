@@ -40,7 +40,7 @@ static void make(flume *f, bool absorb)
     if (!absorb) f->scene.wavemakers[1].law = f->scene.wavemakers[0].law;
     if (!absorb) f->scene.wavemakers[1].law.start = 1e6;
     if (sb_model_build(&f->scene, &f->model, &error) != SB_OK) fail_msg("%s", error.text);
-    if (sb_sim_create(&f->scene, &f->model, &f->sim, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sb_sim_create(&f->scene, &f->model, NULL, &f->sim, &error) != SB_OK) fail_msg("%s", error.text);
     if (sb_sim_settle(f->sim, &error) != SB_OK) fail_msg("%s", error.text);
 }
 

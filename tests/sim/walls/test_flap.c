@@ -40,7 +40,7 @@ static void make(flume *f, const char *more)
     *f = (flume){0};
     if (read_scene(more, &f->scene, &error) != SB_OK) fail_msg("%s", error.text);
     if (sb_model_build(&f->scene, &f->model, &error) != SB_OK) fail_msg("%s", error.text);
-    if (sb_sim_create(&f->scene, &f->model, &f->sim, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sb_sim_create(&f->scene, &f->model, NULL, &f->sim, &error) != SB_OK) fail_msg("%s", error.text);
     if (sb_sim_settle(f->sim, &error) != SB_OK) fail_msg("%s", error.text);
 }
 

@@ -45,7 +45,7 @@ static void make(basin *b, const char *sides, const char *plates, const char *wa
     *b = (basin){0};
     if (read_scene(sides, plates, walls, &b->scene, &error) != SB_OK) fail_msg("%s", error.text);
     if (sb_model_build(&b->scene, &b->model, &error) != SB_OK) fail_msg("%s", error.text);
-    if (sb_sim_create(&b->scene, &b->model, &b->sim, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sb_sim_create(&b->scene, &b->model, NULL, &b->sim, &error) != SB_OK) fail_msg("%s", error.text);
     if (sb_sim_settle(b->sim, &error) != SB_OK) fail_msg("%s", error.text);
 }
 

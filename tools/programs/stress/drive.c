@@ -142,7 +142,7 @@ sb_status sb_drive_run(const sb_trial *trial, const char *assets, const char *fo
     sb_status status = sb_trial_scene(trial, assets, &d.scene, error);
     if (status == SB_OK) status = sb_model_build(&d.scene, &d.model, error);
     if (status == SB_OK && trial->drive->alter) status = trial->drive->alter(&d, error);
-    if (status == SB_OK) status = sb_sim_create(&d.scene, &d.model, &d.sim, error);
+    if (status == SB_OK) status = sb_sim_create(&d.scene, &d.model, NULL, &d.sim, error);
     if (status == SB_OK) status = sb_sim_settle(d.sim, error);
     if (status == SB_OK) {
         d.first = sb_sim_energy(d.sim);

@@ -230,6 +230,7 @@ int sb_cpu_bodies(sb_sim *sim, const sb_wall_drag *law, sb_body_sums *total)
     const size_t values = sim->model->body_count * SB_FORCE_VALUES;
     int status = sb_body_forces_create(&all.on, sim->model->body_count);
     if (status == 0 && !sum_forces(sim, law, &all)) status = -1;
+    if (sim->exchange->agree(sim, status == 0 ? SB_OK : SB_FAILED, NULL) != SB_OK) status = -1;
     if (status == 0) {
         sim->exchange->sum(sim, all.on.all, values);
         sim->exchange->sum(sim, all.works, WORKS);

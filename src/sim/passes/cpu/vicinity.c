@@ -18,16 +18,18 @@ static void find_cells(const sb_sim *sim, const sb_group *group, sb_vicinity *v)
     }
 }
 
-/* Appends the records of one cell: the entries from base + begin on of sim->state.position. */
-SB_INLINE void add_cell(const sb_sim *sim, sb_vicinity *v, sb_record corner, const sb_cells *cells, uint64_t code,
+/* Appends the records of one cell: the entries from base + begin on of sim->state.position. Returns whether the table
+   has the cell. */
+SB_INLINE bool add_cell(const sb_sim *sim, sb_vicinity *v, sb_record corner, const sb_cells *cells, uint64_t code,
                         size_t base)
 {
     const int64_t cell = sb_cells_find(cells, code);
-    if (cell < 0 || v->count > SB_AROUND_MAX) return;
+    if (cell < 0) return false;
+    if (v->count > SB_AROUND_MAX) return true;
     const uint32_t begin = cells->begin[cell] + (uint32_t)base, count = cells->begin[cell + 1] - cells->begin[cell];
     if (v->count + count > SB_AROUND_MAX) {
         v->count = SB_AROUND_MAX + 1;
-        return;
+        return true;
     }
     const sb_record *record = sim->state.position + begin;
     for (uint32_t k = 0; k < count; k++) {
@@ -43,18 +45,25 @@ SB_INLINE void add_cell(const sb_sim *sim, sb_vicinity *v, sb_record corner, con
         last->count += count;
     else
         v->run[v->runs++] = (sb_run){begin, count};
+    return true;
 }
 
-static void add_part(const sb_sim *sim, sb_vicinity *v, sb_record corner, const sb_cells *cells, size_t base)
+/* Appends the cells of a part. A cell of `water` is whole in one domain: owned, or in the halo. */
+static void add_part(const sb_sim *sim, sb_vicinity *v, sb_record corner, bool water)
 {
+    const sb_ghosts *g = &sim->ghosts;
+    const sb_cells *cells = water ? &sim->cells : &g->cells;
+    const size_t base = water ? 0 : sb_images_first(sim);
+    const bool halo = water && g->halo > 0;
     uint32_t *start = v->start[v->parts++];
     for (uint32_t z = 0; z < v->cells[2]; z++)
         for (uint32_t y = 0; y < v->cells[1]; y++)
             for (uint32_t x = 0; x < v->cells[0]; x++) {
+                const uint64_t code =
+                    (uint64_t)(v->low[0] + x) | (uint64_t)(v->low[1] + y) << 21 | (uint64_t)(v->low[2] + z) << 42;
                 *start++ = (uint32_t)v->count;
-                add_cell(sim, v, corner, cells,
-                         (uint64_t)(v->low[0] + x) | (uint64_t)(v->low[1] + y) << 21 | (uint64_t)(v->low[2] + z) << 42,
-                         base);
+                if (!add_cell(sim, v, corner, cells, code, base) && halo)
+                    add_cell(sim, v, corner, &g->halo_cells, code, sim->state.n);
             }
     *start = (uint32_t)v->count;
 }
@@ -68,8 +77,8 @@ void sb_vicinity_gather(const sb_sim *sim, sb_group *group, sb_vicinity *v)
     v->parts = v->count = v->images = v->runs = 0;
     for (size_t i = group->first; i < group->end; i++)
         at_edge |= sim->ghosts.count > 0 && sb_space_at_edge(&sim->space, sim->state.position[i]);
-    add_part(sim, v, corner, &sim->cells, 0);
-    if (at_edge) add_part(sim, v, corner, &sim->ghosts.cells, sim->state.n);
+    add_part(sim, v, corner, true);
+    if (at_edge) add_part(sim, v, corner, false);
     group->corner = corner;
 }
 

@@ -7,11 +7,12 @@
 SB_INLINE sb_f4 entry(const sb_sim *sim, const sb_group *group, size_t e, sb_f4 back)
 {
     sb_f4 at = sb_offset(sim->state.position[e], group->corner);
-    if (e < sim->state.n) {
+    const size_t images = sb_images_first(sim);
+    if (e < images) {
         at += sim->state.velocity[e] * back;
         at[3] = sim->work.unknown[e];
     } else
-        at[3] = sim->work.unknown[sim->ghosts.of[e - sim->state.n]];
+        at[3] = sim->work.unknown[sim->ghosts.of[e - images]];
     return at;
 }
 

@@ -67,13 +67,13 @@ static void diverge(sb_sim *sim, const sb_f4 *field, float factor, float *out)
 static sb_vec3 place_before(const sb_sim *sim, const sb_group *group, uint32_t entry)
 {
     const sb_vec3 at = sb_offset_of(sim->state.position[entry], group->corner);
-    const double back = entry < sim->state.n ? -sim->state.time_step / sim->space.quantum : 0;
+    const double back = entry < sb_images_first(sim) ? -sim->state.time_step / sim->space.quantum : 0;
     return sb_madd(at, back, sb_vector_of(sim->state.velocity[entry]));
 }
 
 static double unknown_of(const sb_sim *sim, uint32_t entry)
 {
-    return (double)sim->work.unknown[entry < sim->state.n ? entry : sim->ghosts.of[entry - sim->state.n]];
+    return (double)sim->work.unknown[sb_entry_owner(sim, (uint32_t)entry)];
 }
 
 static void virial_group(sb_sim *sim, const sb_group *group, const void *arguments)

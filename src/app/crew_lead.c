@@ -1,0 +1,146 @@
+/* Rank 0 gives orders, the other ranks follow them. */
+#include "app/checkpoint.h"
+#include "app/crew_orders.h"
+#include "app/run.h"
+#include "base/memory.h"
+#include "base/stop.h"
+#include "mpi/world.h"
+
+/* ---- orders ---- */
+
+static sb_status act(run *r, const order *given, sb_error *error)
+{
+    const crew_row *row = &sb_crew_rows[given->what];
+    sb_error local = {0};
+    sb_status status = row->act(r, given, &local);
+    if (row->end == AGREED && sb_crew_several(r)) status = sb_world_agree(r->crew.ranks, status, &local);
+    if (row->end == NOTED && sb_crew_several(r) && status == SB_FAILED) sb_world_failed(r->crew.ranks, &local);
+    if (status != SB_OK && error) *error = local;
+    return status;
+}
+
+sb_status sb_crew_order(run *r, const order *given, sb_error *error)
+{
+    if (sb_crew_several(r)) sb_world_order(r->crew.ranks, given, sizeof *given);
+    return act(r, given, error);
+}
+
+sb_status sb_crew_next(run *r, order *given, sb_error *error)
+{
+    const int signal = sb_stop_waiting();
+    if (signal != 0 && !r->crew.told) {
+        r->crew.told = true;
+        sb_world_tell_signal(r->crew.ranks, signal);
+    }
+    sb_world_await(r->crew.ranks, given, sizeof *given);
+    return act(r, given, error);
+}
+
+/* ---- rank 0 ---- */
+
+sb_status sb_crew_build(run *r, sb_error *error)
+{
+    return sb_crew_order(r, &(order){.what = ORDER_BUILD}, error);
+}
+
+sb_status sb_crew_create(run *r, bool resume, sb_error *error)
+{
+    const sb_status status = sb_crew_order(r, &(order){.what = ORDER_CREATE, .flag = resume}, error);
+    if (status == SB_OK && sb_crew_several(r)) sb_stop_defer(true); /* from now on ranks must stop at the same step */
+    return status;
+}
+
+sb_status sb_crew_measure(run *r, bool find, sb_error *error)
+{
+    return sb_crew_order(r, &(order){.what = ORDER_MEASURE, .flag = find}, error);
+}
+
+sb_status sb_crew_settle(run *r, sb_settle_watch *watch, sb_error *error)
+{
+    r->crew.watch = watch;
+    return sb_crew_order(r, &(order){.what = ORDER_SETTLE}, error);
+}
+
+sb_status sb_crew_step(run *r, sb_error *error)
+{
+    return sb_crew_order(r, &(order){.what = ORDER_STEP}, error);
+}
+
+sb_status sb_crew_observe(run *r, sb_error *error)
+{
+    return sb_crew_order(r, &(order){.what = ORDER_OBSERVE}, error);
+}
+
+void sb_crew_find_pressures(run *r)
+{
+    (void)sb_crew_order(r, &(order){.what = ORDER_PRESSURES}, NULL);
+}
+
+sb_frame *sb_crew_snapshot(run *r)
+{
+    (void)sb_crew_order(r, &(order){.what = ORDER_SNAPSHOT}, NULL);
+    return r->crew.frame;
+}
+
+uint64_t sb_crew_hash(run *r)
+{
+    (void)sb_crew_order(r, &(order){.what = ORDER_HASH}, NULL);
+    return r->crew.hash;
+}
+
+sb_energy sb_crew_energy(run *r)
+{
+    (void)sb_crew_order(r, &(order){.what = ORDER_ENERGY}, NULL);
+    return r->crew.energy;
+}
+
+sb_status sb_crew_trigger(run *r, size_t wavemaker, sb_error *error)
+{
+    return sb_crew_order(r, &(order){.what = ORDER_TRIGGER, .number = wavemaker}, error);
+}
+
+void sb_crew_heed(run *r)
+{
+    if (!sb_crew_several(r) || sb_stop_signal()) return;
+    const int own = sb_stop_waiting(), told = own ? 0 : sb_world_signal_told(r->crew.ranks);
+    if (own || told)
+        (void)sb_crew_order(
+            r,
+            &(order){.what = ORDER_STOP, .flag = own && sb_stop_by_command(), .number = (uint64_t)(own ? own : told)},
+            NULL);
+}
+
+void sb_crew_stay(run *r)
+{
+    if (sb_crew_several(r)) (void)sb_crew_order(r, &(order){.what = ORDER_STAY}, NULL);
+}
+
+void sb_crew_release(run *r)
+{
+    (void)sb_crew_order(r, &(order){.what = ORDER_RELEASE}, NULL);
+}
+
+void sb_crew_dismiss(run *r)
+{
+    if (!sb_crew_several(r) || r->crew.dismissed) return;
+    (void)sb_crew_order(r, &(order){.what = ORDER_DISMISS}, NULL);
+    r->crew.dismissed = true;
+    sb_stop_defer(false);
+}
+
+/* ---- the other ranks ---- */
+
+sb_status sb_crew_follow(const sb_scene *scene, const char *directory, const sb_run_options *options, sb_error *error)
+{
+    run r = {.resolved = *scene, .directory = directory, .lock = -1, .crew = {.ranks = options->ranks}};
+    order given = {0};
+    r.scene = &r.resolved;
+    sb_stop_watch();
+    sb_stop_defer(true);
+    sb_status status = sb_checkpoint_begin(&r, error);
+    while (status == SB_OK && given.what != ORDER_DISMISS) (void)sb_crew_next(&r, &given, NULL);
+    sb_measure_destroy(r.measure);
+    sb_sim_destroy(r.sim);
+    sb_model_free(&r.model);
+    return status;
+}

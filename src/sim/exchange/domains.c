@@ -1,0 +1,115 @@
+#include "sim/exchange/domains.h"
+
+#include "base/memory.h"
+#include "sim/exchange/sums.h"
+
+#include <stdio.h>
+#include <string.h>
+
+sb_status sb_domains_create(sb_sim *sim, sb_error *error)
+{
+    sb_domains *d = sim->domains = sb_alloc(1, sizeof *d);
+    if (!d) return sb_fail_memory(error, "domains");
+    const size_t ranks = (size_t)sim->ranks->count;
+    d->ranks = sim->ranks;
+    d->cut = sb_alloc(ranks + 1, sizeof *d->cut);
+    d->next = sb_alloc(ranks + 1, sizeof *d->next);
+    d->matrix = sb_alloc(ranks * ranks, sizeof *d->matrix);
+    d->row = sb_alloc(ranks + 1, sizeof *d->row);
+    d->send = sb_alloc(ranks, sizeof *d->send);
+    d->receive = sb_alloc(ranks, sizeof *d->receive);
+    d->plan.sends = sb_alloc(ranks, sizeof *d->plan.sends);
+    d->plan.receives = sb_alloc(ranks, sizeof *d->plan.receives);
+    if (!d->cut || !d->next || !d->matrix || !d->row || !d->send || !d->receive || !d->plan.sends || !d->plan.receives)
+        return sb_fail_memory(error, "domains");
+    return SB_OK;
+}
+
+void sb_domains_destroy(sb_domains *d)
+{
+    if (!d) return;
+    sb_free(d->cut);
+    sb_free(d->next);
+    sb_free(d->matrix);
+    sb_free(d->row);
+    sb_free(d->send);
+    sb_free(d->receive);
+    sb_free(d->plan.sends);
+    sb_free(d->plan.receives);
+    sb_free(d->plan.run);
+    sb_free(d->plan.place);
+    sb_free(d->out);
+    sb_free(d->in);
+    sb_free(d->migrant);
+    sb_free(d->pairs);
+    sb_free(d);
+}
+
+size_t sb_domains_bytes(const sb_domains *d)
+{
+    if (!d) return 0;
+    const size_t ranks = (size_t)d->ranks->count;
+    return ranks * ranks * sizeof *d->matrix + d->out_capacity + d->in_capacity +
+           d->migrant_capacity * sizeof *d->migrant + d->plan.run_capacity * sizeof *d->plan.run +
+           d->plan.place_capacity * sizeof *d->plan.place + d->pairs_capacity * sizeof *d->pairs;
+}
+
+void sb_domains_gather_row(sb_domains *d)
+{
+    sb_ranks_gather(d->ranks, d->row, (size_t)d->ranks->count * sizeof *d->row, d->matrix);
+}
+
+sb_status sb_domains_agree(const sb_sim *sim, sb_status own, sb_error *error)
+{
+    typedef struct outcome {
+        int32_t status;
+        bool explained;
+    } outcome;
+    sb_ranks *ranks = sim->ranks;
+    const outcome here = {(int32_t)own, own != SB_OK && error && error->text[0]};
+    outcome all[SB_RANKS_MAX];
+    int first = -1;
+    sb_ranks_gather(ranks, &here, sizeof here, all);
+    for (int r = ranks->count - 1; r >= 0; r--)
+        if (all[r].status != SB_OK && (first < 0 || all[r].explained || !all[first].explained)) first = r;
+    if (first < 0) return SB_OK;
+    char text[sizeof error->text] = {0};
+    if (first == ranks->rank && error) memcpy(text, error->text, sizeof text);
+    sb_ranks_share(ranks, first, text, sizeof text);
+    text[sizeof text - 1] = 0;
+    return sb_fail(error, (sb_status)all[first].status, "%s", text);
+}
+
+static void sum(const sb_sim *sim, sb_exact *values, size_t count)
+{
+    sb_ranks_sum(sim->ranks, values, count);
+}
+
+static double sum_and_largest(const sb_sim *sim, sb_exact *values, size_t count, double value)
+{
+    _Static_assert((int)SB_SUMS_MAX <= (int)SB_RANKS_SUMS, "sums of one gather");
+    return sb_ranks_sum_and_largest(sim->ranks, values, count, value);
+}
+
+static void sum_counts(const sb_sim *sim, uint64_t *values, size_t count)
+{
+    sb_ranks_add(sim->ranks, values, count);
+}
+
+static double largest(const sb_sim *sim, double value)
+{
+    return sb_ranks_largest(sim->ranks, value);
+}
+
+const sb_exchange sb_exchange_domains = {
+    .name = "domains",
+    .migrate = sb_domains_migrate,
+    .make_ghosts = sb_domains_make_ghosts,
+    .balance = sb_domains_balance,
+    .refresh = sb_domains_refresh,
+    .sum = sum,
+    .sum_and_largest = sum_and_largest,
+    .count = sum_counts,
+    .largest = largest,
+    .agree = sb_domains_agree,
+};

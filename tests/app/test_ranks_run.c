@@ -1,0 +1,215 @@
+/* Runs on several ranks: the same files as on one, whatever happens to the ranks. */
+#include "pair.h"
+
+#include "base/memory.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static int setup(void **state)
+{
+    if (pair_setup(state) != 0) return -1;
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "whole", "--quiet", "--set", EVERY_THREE);
+    return 0;
+}
+
+#define NEEDS_MPI()                                                                                                    \
+    do {                                                                                                               \
+        if (!program_has_mpi()) {                                                                                      \
+            print_message("this build has no MPI, or there is no mpirun\n");                                           \
+            skip();                                                                                                    \
+        }                                                                                                              \
+    } while (0)
+
+/* Runs it on so many ranks. */
+#define RUN_ON(count, status, ...)                                                                                     \
+    do {                                                                                                               \
+        program_on_ranks(count);                                                                                       \
+        RUN_AND_FORGET(status, "run", __VA_ARGS__);                                                                    \
+        program_on_ranks(NULL);                                                                                        \
+    } while (0)
+
+static void tables_and_state_do_not_depend_on_the_ranks(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    RUN_ON("1", 0, "measured.yaml", "--out", "one", "--quiet", "--set", EVERY_THREE);
+    RUN_ON("2", 0, "measured.yaml", "--out", "two", "--quiet", "--set", EVERY_THREE);
+    RUN_ON("3", 0, "measured.yaml", "--out", "three", "--quiet", "--set", EVERY_THREE);
+    assert_same_run("whole", "one", pair_tables);
+    assert_same_run("whole", "two", pair_tables);
+    assert_same_run("whole", "three", pair_tables);
+    assert_near(json_number_of("one/summary.json", "ranks"), 1, 0);
+    assert_near(json_number_of("three/summary.json", "ranks"), 3, 0);
+    char *log = text_of("three/run.jsonl");
+    assert_contains(log, "\"event\":\"ranks\"");
+    assert_contains(log, "\"event\":\"load\"");
+    sb_free(log);
+}
+
+static void a_checkpoint_resumes_with_another_number_of_ranks(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    RUN_ON("3", 0, "measured.yaml", "--out", "parts", "--quiet", "--set", EVERY_THREE, "--until", "0.2");
+    RUN_ON("2", 0, "measured.yaml", "--out", "parts", "--quiet", "--set", EVERY_THREE, "--until", "0.41", "--resume");
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "parts", "--quiet", "--set", EVERY_THREE, "--resume");
+    assert_same_run("whole", "parts", pair_tables);
+}
+
+/* Waits until the run has written a checkpoint of a step. */
+static void wait_for_checkpoint(const char *run, pid_t process)
+{
+    char names[16][64], folder[64];
+    snprintf(folder, sizeof folder, "%s/checkpoints", run);
+    for (int count = 0; kill(process, 0) == 0; usleep(5000)) {
+        count = exists(folder) ? list_checkpoints(run, names) : 0;
+        if (count > 0 && names[0][0] == '0') return;
+    }
+    fail_msg("%s: no checkpoint", run);
+}
+
+/* The process of a rank: of the processes below mpirun the one with this number in its environment; 0: not found. */
+static pid_t process_of(pid_t mpirun, int rank)
+{
+    char path[64], text[1 << 16], wanted[64];
+    int child;
+    snprintf(path, sizeof path, "/proc/%d/task/%d/children", (int)mpirun, (int)mpirun);
+    snprintf(wanted, sizeof wanted, "OMPI_COMM_WORLD_RANK=%d", rank);
+    FILE *children = fopen(path, "r");
+    pid_t found = 0;
+    while (children && !found && fscanf(children, "%d", &child) == 1) {
+        snprintf(path, sizeof path, "/proc/%d/environ", child);
+        FILE *environment = fopen(path, "r");
+        const size_t length = environment ? fread(text, 1, sizeof text - 1, environment) : 0;
+        if (environment) fclose(environment);
+        text[length] = '\0';
+        for (const char *at = text; at < text + length; at += strlen(at) + 1)
+            if (strcmp(at, wanted) == 0) found = child;
+    }
+    if (children) fclose(children);
+    return found;
+}
+
+/* The line of the program among those of mpirun. Fails unless there is exactly one. */
+static void assert_one_reason(const char *text, const char *expected)
+{
+    assert_int_equal(count_of(text, "shorebreak: "), 1);
+    assert_contains(strstr(text, "shorebreak: "), expected);
+}
+
+static void a_killed_rank_ends_all_and_the_run_resumes(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    program_on_ranks("3");
+    pid_t process = program_start((const char *const[]){"run", "measured.yaml", "--out", "killed", "--quiet", "--set",
+                                                        EVERY_THREE, "--until", "60", NULL});
+    wait_for_checkpoint("killed", process);
+    const pid_t victim = process_of(process, 1);
+    assert_true(victim > 0 && kill(victim, SIGKILL) == 0);
+    outcome o = program_finish(process);
+    program_on_ranks(NULL);
+    assert_int_equal(o.status, 137); /* mpirun's, for a rank that a signal killed */
+    assert_one_reason(o.err, "rank 1 on ");
+    outcome_free(&o);
+    RUN_ON("2", 0, "measured.yaml", "--out", "killed", "--quiet", "--set", EVERY_THREE, "--resume");
+    assert_same_run("whole", "killed", pair_tables);
+}
+
+static void a_silent_rank_ends_all_with_status_2(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    program_on_ranks("2");
+    pid_t process = program_start((const char *const[]){"run", "measured.yaml", "--out", "silent", "--quiet", "--set",
+                                                        EVERY_THREE, "--rank-deadline", "2", "--until", "60", NULL});
+    wait_for_checkpoint("silent", process);
+    const pid_t victim = process_of(process, 1);
+    assert_true(victim > 0 && kill(victim, SIGSTOP) == 0);
+    outcome o = program_finish(process);
+    program_on_ranks(NULL);
+    assert_int_equal(o.status, 2);
+    assert_one_reason(o.err, "expected less than --rank-deadline 2");
+    outcome_free(&o);
+}
+
+static void a_signal_stops_all_ranks_at_one_step(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    program_on_ranks("3");
+    pid_t process = program_start((const char *const[]){"run", "measured.yaml", "--out", "stopped", "--quiet", "--set",
+                                                        EVERY_THREE, "--until", "60", NULL});
+    wait_for_checkpoint("stopped", process);
+    const pid_t one = process_of(process, 2);
+    assert_true(one > 0 && kill(one, SIGTERM) == 0);
+    outcome o = program_finish(process);
+    program_on_ranks(NULL);
+    assert_int_equal(o.status, 128 + SIGTERM);
+    assert_one_reason(o.err, "stopped by a signal at t = ");
+    outcome_free(&o);
+    RUN_ON("2", 0, "measured.yaml", "--out", "stopped", "--quiet", "--set", EVERY_THREE, "--resume");
+    assert_same_run("whole", "stopped", pair_tables);
+}
+
+/* Rank 1 is started in another folder, as on a host that has other files. */
+static outcome run_in_two_folders(const char *scene)
+{
+    program_on_ranks("1");
+    outcome o = program_run((const char *const[]){"run", scene, "--out", in_folder("never"), ":", "-n", "1", "-wdir",
+                                                  in_folder("other"), SB_BINARY_DIR "/shorebreak", "run", scene,
+                                                  "--out", in_folder("never"), NULL});
+    program_on_ranks(NULL);
+    return o;
+}
+
+static void unequal_ranks_are_refused(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    assert_int_equal(mkdir(in_folder("other"), 0777), 0);
+    outcome o = run_in_two_folders("tank2.yaml");
+    assert_int_equal(o.status, 1);
+    assert_one_reason(o.err, "rank 1 on ");
+    assert_contains(o.err, "tank2.yaml: cannot read");
+    outcome_free(&o);
+    write_text("other/tank2.yaml", tank_3d);
+    o = run_in_two_folders("tank2.yaml");
+    assert_int_equal(o.status, 1);
+    assert_one_reason(o.err, "tank2.yaml: rank 1 on ");
+    assert_contains(o.err, "reads another text than rank 0");
+    outcome_free(&o);
+    assert_false(exists("never"));
+}
+
+static void a_mistake_gives_one_line(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    program_on_ranks("3");
+    outcome o = RUN(1, "run", "measured.yaml", "--out", "whole");
+    assert_one_reason(o.err, "holds a finished run");
+    outcome_free(&o);
+    o = RUN(1, "run", "measured.yaml", "--untill", "3");
+    assert_one_reason(o.err, "did you mean --until?");
+    outcome_free(&o);
+    program_on_ranks(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tables_and_state_do_not_depend_on_the_ranks),
+        cmocka_unit_test(a_checkpoint_resumes_with_another_number_of_ranks),
+        cmocka_unit_test(a_killed_rank_ends_all_and_the_run_resumes),
+        cmocka_unit_test(a_silent_rank_ends_all_with_status_2),
+        cmocka_unit_test(a_signal_stops_all_ranks_at_one_step),
+        cmocka_unit_test(unequal_ranks_are_refused),
+        cmocka_unit_test(a_mistake_gives_one_line),
+    };
+    return cmocka_run_group_tests(tests, setup, program_teardown);
+}

@@ -1,0 +1,87 @@
+/* Messages, orders and ends of ranks that mpirun starts. */
+#include "../check.h"
+#include "mpirun.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* Runs the probe; returns its exit status and what it has printed, except for the lines of mpirun. */
+static int probe(const char *ranks, const char *what, char text[4000])
+{
+    char command[1000], line[1000];
+    const char *const words[] = {MPIRUN_WORDS(ranks)};
+    size_t at = 0;
+    for (size_t k = 0; k < MPIRUN_WORD_COUNT; k++)
+        at += (size_t)snprintf(command + at, sizeof command - at, "%s ", words[k]);
+    snprintf(command + at, sizeof command - at, SB_BINARY_DIR "/ranks_probe %s 2>&1", what);
+    FILE *output = popen(command, "r");
+    assert_non_null(output);
+    text[0] = '\0';
+    while (fgets(line, sizeof line, output))
+        if (strncmp(line, "probe: ", 7) == 0 || strcmp(line, "alone\n") == 0)
+            strncat(text, line, 4000 - strlen(text) - 1);
+    const int status = pclose(output);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+static void messages_orders_and_signals_arrive(void **state)
+{
+    static const char *const counts[] = {"2", "3"};
+    char text[4000];
+    (void)state;
+    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
+        const int status = probe(counts[k], "works", text);
+        if (status != 0 || *text) fail_msg("%s ranks: status %d: %s", counts[k], status, text);
+    }
+}
+
+static void one_rank_is_alone(void **state)
+{
+    char text[4000];
+    (void)state;
+    assert_int_equal(probe("1", "works", text), 0);
+    assert_string_equal(text, "alone\n");
+}
+
+/* The run must end with this status and one line, which has this part. */
+static void ends(const char *what, int expected, const char *part)
+{
+    char text[4000];
+    const int status = probe("3", what, text);
+    const char *first = strchr(text, '\n');
+    if (status != expected || !strstr(text, part) || !first || first[1])
+        fail_msg("%s: status %d, expected %d and one line with \"%s\": %s", what, status, expected, part, text);
+}
+
+static void a_rank_that_dies_ends_all(void **state)
+{
+    (void)state;
+    ends("dies", 137, "rank 2 on "); /* mpirun's own status for SIGKILL */
+}
+
+static void a_silent_rank_ends_all(void **state)
+{
+    (void)state;
+    ends("silent", 2, "for the other ranks, expected less than --rank-deadline 1");
+}
+
+static void a_rank_that_fails_alone_ends_all(void **state)
+{
+    (void)state;
+    ends("alone-before", 2, "rank 1 on ");
+    ends("alone-within", 2, "no memory here");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(messages_orders_and_signals_arrive), cmocka_unit_test(one_rank_is_alone),
+        cmocka_unit_test(a_rank_that_dies_ends_all),          cmocka_unit_test(a_silent_rank_ends_all),
+        cmocka_unit_test(a_rank_that_fails_alone_ends_all),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
