@@ -165,7 +165,7 @@ static double difference(const char *a, const char *b, bool plots)
     assert_true(one.width == other.width && one.height == other.height);
     size_t unlike = 0, count = 0;
     for (size_t p = 0; p < (size_t)one.width * one.height; p++) {
-        const bool within = p % one.width < 210 && p / one.width > 50;
+        const bool within = p % one.width < 210 && p / one.width > 25;
         if (within != plots) continue;
         int most = 0;
         for (size_t c = 3 * p; c < 3 * p + 3; c++)
