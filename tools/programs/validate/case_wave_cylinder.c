@@ -20,11 +20,12 @@ static const sb_body *cylinder_of(const sb_scene *scene)
     return NULL;
 }
 
-/* The whole cylinder's force or moment over time. */
+/* The whole cylinder's force or moment over time. A row is the mean of the interval before its time: it belongs to the
+   middle, which is 3 degrees of a period of 1.2 s. */
 static sb_curve *whole(const sb_case_run *run, const char *column)
 {
     sb_curve *curve = sb_run_curve(run, "forces.csv", "cylinder", "time_s", column);
-    sb_curve_map(curve, 1, 0, 2, 0);
+    sb_curve_map(curve, 1, -0.5 * run->scene->measure.interval, 2, 0);
     return curve;
 }
 
@@ -182,7 +183,11 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
 
 #define METHOD                                                                                                         \
     "Half of the basin is simulated: the plane of symmetry is a smooth wall, and the forces are doubled. The wave is " \
-    "measured in a\nslab without the cylinder, with the same paddle. The last five periods count; no filter. "
+    "measured in a\nslab without the cylinder, with the same paddle. The last five periods count; no filter. The "     \
+    "side walls make a row of "                                                                                        \
+    "cylinders\n3 m apart; by linear theory its force is 2 % lower than that of one and 0.8 degrees later (0.5 % and " \
+    "0.5 degrees for "                                                                                                 \
+    "Chen's). "
 
 /* The wave alone, in a slab that is periodic across. */
 #define ALONE(width)                                                                                                   \
