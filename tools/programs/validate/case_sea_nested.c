@@ -16,10 +16,13 @@ typedef struct sides {
 static const char *const within[] = {"g1", "g2", "g3", "g4", "g5", NULL}, *const outside[] = {"out1", "out2", "out3",
                                                                                               NULL};
 
+/* Elevation over the still surface: that of the particles is the mean of the first readings, that of the grid is exact.
+ */
 static sb_curve *rise(const sb_case_run *run, const char *gauge)
 {
     sb_curve *eta = sb_run_curve(run, "gauges.csv", gauge, "time_s", "z_m");
-    sb_curve_map(eta, 1, 0, 1, -sb_curve_mean(eta, 0, STILL));
+    const double still = gauge[0] == 'o' ? run->scene->sea.level : sb_curve_mean(eta, 0, STILL);
+    sb_curve_map(eta, 1, 0, 1, -still);
     return eta;
 }
 
