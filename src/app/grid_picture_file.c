@@ -62,8 +62,8 @@ static bool is_finite(const water *w)
     return true;
 }
 
-/* A file is of the same step as the particle file: the grid is ahead of the particles by less than one of its steps, and both
-   files are due at the same multiple of the interval. */
+/* A file is of the same step as the particle file: the grid is ahead of the particles by less than one of its steps,
+   and both files are due at the same multiple of the interval. */
 static sb_status check(const water *w, const char *path, const sb_scene *scene, const sb_frame *frame, sb_error *error)
 {
     const double time = w->image.time + scene->given.start, most = 0.5 * scene->output.particle_interval;

@@ -46,12 +46,12 @@ static sb_status read_size(const source *file, sb_vti *image, sb_error *error)
     const char *time = strstr(file->header, "Name=\"TimeValue\"");
     time = time ? strchr(time, '>') : NULL;
     if (!extent || !time || sscanf(time, ">%lg", &image->time) != 1 ||
-        sscanf(extent, "<ImageData WholeExtent=\"0 %zu 0 %zu 0 0\" Origin=\"%lg %lg 0\" Spacing=\"%lg %lg", &image->columns,
-               &image->rows, &image->x, &image->y, &image->cell, &step[0]) != 6)
+        sscanf(extent, "<ImageData WholeExtent=\"0 %zu 0 %zu 0 0\" Origin=\"%lg %lg 0\" Spacing=\"%lg %lg",
+               &image->columns, &image->rows, &image->x, &image->y, &image->cell, &step[0]) != 6)
         return damaged(file, error, "no extent, origin, spacing or time");
-    if (image->columns == 0 || image->rows == 0 || image->columns > CELLS_MAX || image->rows > CELLS_MAX / image->columns ||
-        !isfinite(image->x) || !isfinite(image->y) || !isfinite(image->time) || !isfinite(image->cell) ||
-        !(image->cell > 0) || step[0] != image->cell)
+    if (image->columns == 0 || image->rows == 0 || image->columns > CELLS_MAX ||
+        image->rows > CELLS_MAX / image->columns || !isfinite(image->x) || !isfinite(image->y) ||
+        !isfinite(image->time) || !isfinite(image->cell) || !(image->cell > 0) || step[0] != image->cell)
         return damaged(file, error, "invalid extent, origin, spacing or time");
     return SB_OK;
 }
@@ -61,11 +61,13 @@ static sb_status read_array(const source *file, const sb_vti_array *array, size_
     char pattern[160], what[160];
     const uint64_t bytes = (uint64_t)cells * array->components * sizeof(float);
     uint64_t offset = 0, length = 0;
-    snprintf(pattern, sizeof pattern, "<DataArray type=\"Float32\" Name=\"%s\" NumberOfComponents=\"%zu\" format=\"appended\" ",
-             array->name, array->components);
+    snprintf(pattern, sizeof pattern,
+             "<DataArray type=\"Float32\" Name=\"%s\" NumberOfComponents=\"%zu\" format=\"appended\" ", array->name,
+             array->components);
     const char *tag = strstr(file->header, pattern);
     snprintf(what, sizeof what, "no array \"%s\" of %zu components", array->name, array->components);
-    if (!tag || sscanf(tag + strlen(pattern), "offset=\"%" SCNu64 "\"", &offset) != 1) return damaged(file, error, what);
+    if (!tag || sscanf(tag + strlen(pattern), "offset=\"%" SCNu64 "\"", &offset) != 1)
+        return damaged(file, error, what);
     snprintf(what, sizeof what, "array \"%s\" is cut off or of the wrong length", array->name);
     const uint64_t room = file->end - file->base;
     if (room < sizeof length || offset > room - sizeof length ||
