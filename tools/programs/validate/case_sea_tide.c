@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double SMOOTH = 3; /* s; running mean of surfaces and volumes */
-static const double STILL = 2;  /* s; the mean of the first readings is the still surface, and the still volume */
+static const double SMOOTH = 3;  /* s; running mean of surfaces and volumes */
+static const double STILL = 0.4; /* s; the mean of the first readings, before the tide comes, is the still surface */
 
 /* The bed of tide.yaml. */
 static double bed(double x)
