@@ -18,7 +18,7 @@
 static const char help[] =
     "usage: shorebreak render RUN_DIR|LOG [--camera NAME] [--set KEY=VALUE]... [--out DIR] [--quiet]\n"
     "Draws pictures from the particle files of a run (output.particle_interval), or from a stream that lcm-logger\n"
-    "recorded, without simulating.\n\n"
+    "recorded, without simulating. The water of a grid beside the particles comes from the run's grid/*.vti.\n\n"
     "With --out, or --set render.stills, stills are drawn, too; alone, if render.interval is 0. They replace all\n"
     "earlier ones of a camera. A still shows the water of the nearest particle file if none has its time.\n\n"
     "  --camera NAME    draw the pictures of this camera only (default: all of the scene's cameras)\n"

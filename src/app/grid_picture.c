@@ -51,16 +51,16 @@ static int most_layers(const sb_scene *scene)
 typedef struct lattice {
     axis x, y;
     int most; /* layers */
-    const sb_offshore *grid;
+    const sb_grid_source *grid;
     double time, weight; /* s, of the grid; N/m^3 */
     bool flat;
 } lattice;
 
-static lattice lattice_of(const sb_sim *sim, const sb_scene *scene, const sb_frame *frame)
+static lattice lattice_of(const sb_grid_source *grid, const sb_scene *scene, const sb_frame *frame)
 {
     const sb_offshore_settings *o = &scene->offshore;
     const sb_domain *d = &scene->domain;
-    lattice l = {.grid = sb_sim_grid(sim),
+    lattice l = {.grid = grid,
                  .time = frame->status.time - scene->given.start,
                  .weight = scene->fluid.density * scene->fluid.gravity,
                  .flat = scene->dimensions == 2,
@@ -72,18 +72,18 @@ static lattice lattice_of(const sb_sim *sim, const sb_scene *scene, const sb_fra
 }
 
 /* The water at a column of the lattice; returns the layers that it has, 0 within the domain. */
-static int water_at(const lattice *l, long i, long j, sb_offshore_motion *water)
+static int water_at(const lattice *l, long i, long j, sb_grid_column *water)
 {
     if (is_inside(&l->x, i) && is_inside(&l->y, j)) return 0;
-    sb_offshore_motion_at(l->grid, l->time, place_of(&l->x, i), l->flat ? 0 : place_of(&l->y, j), water);
-    const double layers = water->wet ? (water->surface - water->bed) / l->x.spacing : 0;
+    l->grid->at(l->grid->state, l->time, place_of(&l->x, i), l->flat ? 0 : place_of(&l->y, j), water);
+    const double layers = (water->surface - water->bed) / l->x.spacing;
     return layers < FILM ? 0 : (int)fmin(fmax(round(layers), 1), l->most);
 }
 
 /* The upmost layer is half a spacing below the surface, as in water of particles. Returns the number of particles. */
 static int put_column(const lattice *l, sb_frame *frame, size_t to, long i, long j)
 {
-    sb_offshore_motion water;
+    sb_grid_column water;
     const int layers = water_at(l, i, j, &water);
     const double pitch = layers > 0 && layers < l->most ? (water.surface - water.bed) / layers : l->x.spacing;
     for (int k = 0; k < layers; k++, to++) {
@@ -101,16 +101,15 @@ static int put_column(const lattice *l, sb_frame *frame, size_t to, long i, long
     return layers;
 }
 
-sb_status sb_grid_picture_add(const sb_sim *sim, const sb_scene *scene, sb_frame *frame, sb_error *error)
+sb_status sb_grid_picture_from(const sb_grid_source *source, const sb_scene *scene, sb_frame *frame, sb_error *error)
 {
-    if (!sb_sim_grid(sim) || !(scene->offshore.drawn > 0)) return SB_OK;
-    const lattice l = lattice_of(sim, scene, frame);
+    const lattice l = lattice_of(source, scene, frame);
     size_t *first = sb_alloc((size_t)l.y.count + 1, sizeof *first); /* particles before each row */
     if (!first) return sb_fail_memory(error, "a picture of the grid's water");
 #pragma omp parallel for schedule(static)
     for (long j = 0; j < l.y.count; j++)
         for (long i = 0; i < l.x.count; i++) {
-            sb_offshore_motion water;
+            sb_grid_column water;
             first[j + 1] += (size_t)water_at(&l, l.x.first + i, l.y.first + j, &water);
         }
     for (long j = 0; j < l.y.count; j++) first[j + 1] += first[j];
@@ -126,4 +125,18 @@ sb_status sb_grid_picture_add(const sb_sim *sim, const sb_scene *scene, sb_frame
     }
     sb_free(first);
     return SB_OK;
+}
+
+static void at(const void *state, double time, double x, double y, sb_grid_column *out)
+{
+    sb_offshore_motion water;
+    sb_offshore_motion_at(state, time, x, y, &water);
+    *out = (sb_grid_column){water.bed, water.wet ? water.surface : water.bed, water.u, water.v};
+}
+
+sb_status sb_grid_picture_add(const sb_sim *sim, const sb_scene *scene, sb_frame *frame, sb_error *error)
+{
+    if (!sb_sim_grid(sim) || !(scene->offshore.drawn > 0)) return SB_OK;
+    const sb_grid_source source = {at, sb_sim_grid(sim)};
+    return sb_grid_picture_from(&source, scene, frame, error);
 }

@@ -1,5 +1,6 @@
 #include "app/render_files.h"
 
+#include "app/grid_picture.h"
 #include "output/foam_files.h"
 
 #include <math.h>
@@ -15,6 +16,7 @@ typedef struct job {
     sb_pictures *pictures;
     bool film, quiet;
     sb_render_warning warn;
+    bool *told; /* of missing files of the grid */
 } job;
 
 /* A particle file has the state at the end of the step that passed a multiple of the interval: its picture shows the
@@ -25,13 +27,27 @@ static double picture_time(const job *j, double time)
     return interval > 0 ? interval * floor(time / interval + ROUNDING) : time;
 }
 
+/* Without the files of the grid, pictures show the particles only; the first one that is missing is told. */
+static sb_status add_grid(const job *j, size_t file, sb_frame *frame, sb_error *error)
+{
+    sb_error why = {0};
+    char text[700];
+    const sb_status status = sb_grid_picture_read(j->run, file + 1, j->pictures->scene, frame, &why);
+    if (status == SB_OK || status == SB_FAILED) return status == SB_OK ? SB_OK : sb_fail(error, status, "%s", why.text);
+    snprintf(text, sizeof text, "%.500s; pictures without it show no water of the grid", why.text);
+    if (!*j->told) j->warn(text);
+    *j->told = true;
+    return SB_OK;
+}
+
 static sb_status read_frame(const job *j, size_t file, sb_frame **frame, sb_error *error)
 {
     char path[SB_PATH_MAX];
     sb_status status = sb_path_join(path, j->run, j->list->entries[file].file, error);
     if (status == SB_OK) status = j->format->read(path, frame, error);
-    if (status != SB_OK || !j->pictures->scene->foam.enabled) return status;
-    status = sb_foam_files_read(j->run, file + 1, *frame, error);
+    if (status != SB_OK) return status;
+    if (j->pictures->scene->foam.enabled) status = sb_foam_files_read(j->run, file + 1, *frame, error);
+    if (status == SB_OK) status = add_grid(j, file, *frame, error);
     if (status != SB_OK) sb_frame_release(*frame);
     return status;
 }
@@ -130,7 +146,8 @@ sb_status sb_render_files(const char *run, const sb_particle_format *format, con
                           sb_pictures *pictures, bool quiet, sb_render_warning warn, sb_error *error)
 {
     const sb_render_settings *render = &pictures->scene->render;
-    const job j = {run, format, list, pictures, render->interval > 0 || render->still_count == 0, quiet, warn};
+    bool told = false;
+    const job j = {run, format, list, pictures, render->interval > 0 || render->still_count == 0, quiet, warn, &told};
     sb_consumer_work work = sb_pictures_work(pictures);
     sb_status status = work.open(pictures, error);
     for (size_t i = 0; i < list->count && status == SB_OK; i++) {

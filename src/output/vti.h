@@ -1,4 +1,4 @@
-/* Writes the cells of a horizontal grid as VTK image data (.vti), which ParaView reads. */
+/* Writes the cells of a horizontal grid as VTK image data (.vti), which ParaView reads, and reads such files. */
 #ifndef SB_OUTPUT_VTI_H
 #define SB_OUTPUT_VTI_H
 
@@ -31,5 +31,11 @@ typedef struct sb_vti {
 
 /* Writes the file completely or not at all. */
 sb_status sb_vti_write(const char *path, const sb_vti *image, sb_error *error);
+
+/* Reads the wanted arrays, whose names and components are given, of a file that sb_vti_write wrote, and sets their
+   values, which lie in *values: free it with sb_free. image->arrays is `wanted`. Values can be NaN. SB_BAD_INPUT: not
+   such a file, damaged, or without an array; nothing is set. */
+sb_status sb_vti_read(const char *path, sb_vti_array *wanted, size_t count, sb_vti *image, float **values,
+                      sb_error *error);
 
 #endif

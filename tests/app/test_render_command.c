@@ -196,9 +196,54 @@ static void damaged_particle_file(void **state)
     assert_false(any_ending("worse", ".tmp"));
 }
 
+/* 0.4 m of water: particles from x = 0 to 4 m, the grid's from -6 m on. The wave is in the grid, 2 m before the side.
+ */
+static const char nested[] =
+    "title: t\ndimensions: 2\nresolution: 0.04\nduration: 0.4\nnumerics: {settle_steps: 0}\n"
+    "output: {plots: false, particle_interval: 0.2}\n"
+    "water: {level: 0.4, seed: [1, 0.2]}\ndomain: {min: [0, 0], max: [4, 0.8], sides: {x_min: sea}}\n"
+    "sea: {source: offshore}\n"
+    "offshore: {cell: 0.04, min: [-6], max: [4], manning: 0, maps: false, drawn: 4,\n"
+    "  wave: {kind: solitary, height: 0.1, depth: 0.4, position: -2, theory: serre}}\n"
+    "render: {interval: 0.2, width: 160, height: 90, speed_max: 1, cameras: [{name: side, eye: [0, -8, 1.5], target: "
+    "[0, 0, "
+    "0.3]}]}\n";
+
+/* The water of the grid comes from its files: pictures are those of the run, but for the grid's time, which is ahead by
+   less than a step. Without a file, the picture shows the particles only, and a warning says so. */
+static void water_of_the_grid_is_shown(void **state)
+{
+    (void)state;
+    static picture run, again, without;
+    write_text("nested.yaml", nested);
+    RUN_AND_FORGET(0, "run", "nested.yaml", "--out", "nested", "--quiet");
+    outcome o = RUN(0, "render", "nested", "--out", "nested-again", "--quiet");
+    assert_string_equal(o.err, "");
+    outcome_free(&o);
+    RUN_AND_FORGET(0, "render", "nested", "--out", "nested-dry", "--quiet", "--set", "offshore.drawn=0");
+    read_picture(in_folder("nested/frames/side/000002.png"), run, WIDTH, HEIGHT);
+    read_picture(in_folder("nested-again/frames/side/000002.png"), again, WIDTH, HEIGHT);
+    read_picture(in_folder("nested-dry/frames/side/000002.png"), without, WIDTH, HEIGHT);
+    printf("grid in pictures: %.4f, without it %.4f\n", difference(run, again), difference(run, without));
+    assert_true(difference(run, without) > 0.02);
+    assert_true(difference(run, again) < 0.1 * difference(run, without));
+    assert_int_equal(unlink(in_folder("nested/grid/000002.vti")), 0);
+    o = RUN(0, "render", "nested", "--out", "nested-lost", "--quiet");
+    assert_one_line(o.err, "grid/000002.vti: ");
+    assert_contains(o.err, "show no water of the grid");
+    outcome_free(&o);
+    read_picture(in_folder("nested-lost/frames/side/000002.png"), without, WIDTH, HEIGHT);
+    assert_true(difference(again, without) > 0.02);
+    write_text("nested/grid/000002.vti", "<?xml version=\"1.0\"?>\n<VTKFile");
+    o = RUN(0, "render", "nested", "--out", "nested-damaged", "--quiet");
+    assert_one_line(o.err, "grid/000002.vti: no appended data, expected a grid file of shorebreak");
+    outcome_free(&o);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(water_of_the_grid_is_shown),
         cmocka_unit_test(one_camera_into_another_folder),
         cmocka_unit_test(all_cameras_without_a_choice),
         cmocka_unit_test(a_new_camera),

@@ -1,10 +1,11 @@
 /* Fuzzes a particle file. An input that begins with 'e' is a sequence of edits to a valid file, one that begins with
-   'f' a sequence of edits to a valid file of foam; any other input is the file itself. A frame that is read must have
-   finite numbers, and must not change when it is written and read again. */
+   'f' a sequence of edits to a valid file of foam, one with 'g' to a valid grid file; any other input is the file
+   itself. A frame that is read must have finite numbers, and must not change when it is written and read again. */
 #include "fuzz.h"
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "output/vti.h"
 #include "output/vtp.h"
 
 #include <math.h>
@@ -86,11 +87,46 @@ static void check_again(const sb_frame *frame)
     sb_frame_release(again);
 }
 
+/* A grid that is read has as many values as its numbers of cells say. */
+static void try_grid(const uint8_t *data, size_t size)
+{
+    static const float bed[6] = {-1, -2, -3, -1, -2, 0.5f}, velocity[18] = {1, 0, 0, 2};
+    const sb_vti_array arrays[] = {{"bed", 1, bed}, {"velocity", 3, velocity}};
+    const sb_vti image = {2.5, 3, 2, -1, 4, 0.5, 2, arrays};
+    sb_vti_array wanted[] = {{"bed", 1, NULL}, {"velocity", 3, NULL}};
+    char path[SB_PATH_MAX], *file = NULL;
+    size_t bytes = 0;
+    float *values = NULL;
+    sb_vti found = {0};
+    sb_error error = {0};
+    snprintf(path, sizeof path, "%s", fuzz_save("valid.vti", NULL, 0));
+    FUZZ_CHECK(sb_vti_write(path, &image, NULL) == SB_OK);
+    FUZZ_CHECK(sb_file_read(path, 1 << 20, &file, &bytes, NULL) == SB_OK);
+    fuzz_edit((uint8_t *)file, bytes, data, size);
+    const sb_status status =
+        sb_vti_read(fuzz_save("some.vti", (uint8_t *)file, bytes), wanted, 2, &found, &values, &error);
+    sb_free(file);
+    if (status != SB_OK) {
+        FUZZ_CHECK(!values);
+        fuzz_check_refusal(status, &error);
+        return;
+    }
+    volatile float last = wanted[1].values[3 * found.columns * found.rows - 1];
+    (void)last;
+    FUZZ_CHECK(found.cell > 0 && isfinite(found.x) && isfinite(found.time));
+    FUZZ_CHECK(size > 0 || (found.columns == 3 && found.rows == 2 && wanted[1].values[3] == 2));
+    sb_free(values);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     if (!valid) make_valid();
     if (size > 0 && data[0] == 'f') {
         try_foam(data + 1, size - 1);
+        return 0;
+    }
+    if (size > 0 && data[0] == 'g') {
+        try_grid(data + 1, size - 1);
         return 0;
     }
     const bool edits = size > 0 && data[0] == 'e';

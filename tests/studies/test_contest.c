@@ -56,6 +56,25 @@ static bool is_default_key(const char *name)
     return false;
 }
 
+static size_t entries_of(const sb_subject *subject, const char *scene)
+{
+    sb_store store = {.assets = SB_SOURCE_DIR "/assets/validation"};
+    sb_contest c;
+    size_t count = 0;
+    assert_int_equal(sb_contest_begin(&c, subject, &store, &(sb_contest_selection){.seeds = 1}, NULL), SB_OK);
+    for (size_t i = 0; i < c.trial_count; i++) count += strstr(c.trials[i].request.of->scene, scene) != NULL;
+    sb_contest_free(&c);
+    return count;
+}
+
+/* Three rows at three spacings have the plant's nested scene; other subjects have none of them. */
+static void test_rows_of_one_subject_have_its_scene(void **state)
+{
+    (void)state;
+    for (const sb_subject *s = sb_subjects; s->name; s++)
+        assert_int_equal(entries_of(s, "plant-coast.yaml"), strcmp(s->name, "plant") == 0 ? 9 : 0);
+}
+
 /* Only the first row changes nothing; every scene accepts all settings; names are unique. */
 static void test_choices_are_valid(void **state)
 {
@@ -247,6 +266,7 @@ int main(void)
         cmocka_unit_test(test_errors_of_bodies_are_weighted_by_load),
         cmocka_unit_test(test_choices_are_valid),
         cmocka_unit_test(test_wcsph_is_the_preset_wen),
+        cmocka_unit_test(test_rows_of_one_subject_have_its_scene),
         cmocka_unit_test(test_part_of_runs_can_be_selected),
         cmocka_unit_test(test_means_over_seeds_and_front),
         cmocka_unit_test(test_reference_is_mean_of_its_seeds),

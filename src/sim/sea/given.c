@@ -9,14 +9,25 @@ static const double SHALLOW = 1, STEEP = 1;
 /* Spacings beside the strip of a neighbouring side over which the weight grows. */
 static const double TAPER = 3;
 
+/* Distance from a place beside a side to the strip of the nearest neighbouring side, and that side; negative: in the
+ * strip. */
+static double to_neighbour(const sb_sim *sim, const sb_strip_side *s, double along, int *side)
+{
+    const int low = 2 * s->other, high = low + 1;
+    const sb_model_sea *sea = sim->model->sea;
+    const double length = sea[s->side].pitch * (double)s->columns;
+    const double from_low = sea[low].along > 0 ? along - sea[low].strip : HUGE_VAL;
+    const double from_high = sea[high].along > 0 ? length - sea[high].strip - along : HUGE_VAL;
+    *side = from_low <= from_high ? low : high;
+    return fmin(from_low, from_high);
+}
+
 double sb_strip_free_part(const sb_sim *sim, const sb_strip_side *s, double along)
 {
-    const sb_model_sea *low = &sim->model->sea[2 * s->other], *high = &sim->model->sea[2 * s->other + 1];
-    const double length = sim->model->sea[s->side].pitch * (double)s->columns, within = TAPER * sim->scene->resolution;
-    double from = within;
+    const double within = TAPER * sim->scene->resolution;
+    int side;
     if (sim->constant.dimension == 2) return 1;
-    if (low->along > 0) from = fmin(from, along - low->strip);
-    if (high->along > 0) from = fmin(from, length - high->strip - along);
+    const double from = fmin(to_neighbour(sim, s, along, &side), within);
     return from <= 0 ? 0 : 0.5 * (1 - cos(M_PI * from / within));
 }
 
@@ -116,6 +127,31 @@ void sb_strip_source(const sb_sim *sim, const sb_strip_side *s, double t, sb_vec
         *out = (sb_sea_point){.surface = sim->scene->given.level};
 }
 
+static double between(double a, double b, double share)
+{
+    return a + share * (b - a);
+}
+
+/* The source's water beside a side. Where a still side meets a given one, the water in the corner is the given one: a
+   wave that comes in through the given side is there, too, and none is measured in a corner. */
+static void source_at(const sb_sim *sim, const sb_strip_side *s, double t, sb_vec3 at, double along, double bed,
+                      sb_sea_point *out)
+{
+    const double free = sb_strip_free_part(sim, s, along);
+    int side;
+    sb_sea_point given;
+    sb_strip_source(sim, s, t, at, bed, out);
+    if (free >= 1 || sb_scene_given_side(sim->scene, s->side)) return;
+    to_neighbour(sim, s, along, &side);
+    if (!sb_scene_given_side(sim->scene, side)) return;
+    sb_sea_at(sim->strip->sea, t, at.x, at.y, at.z, bed, &given);
+    out->surface = between(given.surface, out->surface, free);
+    for (int k = 0; k < 3; k++) {
+        out->velocity[k] = between(given.velocity[k], out->velocity[k], free);
+        out->acceleration[k] = between(given.acceleration[k], out->acceleration[k], free);
+    }
+}
+
 void sb_strip_given(const sb_sim *sim, const sb_strip_side *s, double t, double inwards, double along, double z,
                     sb_given *out)
 {
@@ -125,9 +161,9 @@ void sb_strip_given(const sb_sim *sim, const sb_strip_side *s, double t, double 
     sb_vec3 at = sb_model_sea_place(sim->model, s->side, inwards, along);
     sb_sea_point in, top;
     at.z = z;
-    sb_strip_source(sim, s, t, at, bed, &in);
+    source_at(sim, s, t, at, along, bed, &in);
     at.z = in.surface;
-    sb_strip_source(sim, s, t, at, bed, &top);
+    source_at(sim, s, t, at, along, bed, &top);
     const double depth_in = fmax(in.surface - bed, least);
     const sb_outgoing w = outgoing_at(sim, s, along);
     const passing p = passing_at(s, &w, inwards, depth_in, g);

@@ -10,7 +10,7 @@
 
 /* One spacing of a case. Exactly one row of every list is judged. */
 typedef struct sb_plan {
-    double resolution;           /* m; 0 ends the list */
+    double resolution;           /* m; of a grid, the edge of its cells; 0 ends the list */
     bool judged;                 /* figures are judged at this spacing, by the worst seed */
     bool paper;                  /* the preset `paper` runs here too, with seed 1 */
     int seeds;                   /* numerics.seed = 1..seeds; 0 means 1 */
@@ -35,6 +35,7 @@ typedef struct sb_case_run {
     int seed;
     bool quick, judged;
     double wall;       /* s of run time */
+    double cpu;        /* s of processor time of the last process of the run */
     double iterations; /* mean per step */
     size_t particles, steps;
     const char *label; /* for plots: "0.05 m", "0.05 m, paper", "0.05 m, seed 2" */
@@ -68,6 +69,7 @@ typedef struct sb_case {
     const char *targets;  /* of its figures, separated by "; " */
     const char *method;   /* Markdown: reference, windows, filters, rule for a time lag, definitions */
     const char *scene;    /* relative to assets/validation */
+    bool grid;            /* the scene has no particles: its resolution is that of `offshore.cell` */
     const char *headline; /* quantity of the figure that represents the case in summaries */
     sb_plan full[SB_PLANS_MAX + 1], quick[SB_PLANS_MAX + 1]; /* spacings, coarse to fine */
     const void *what; /* parameters of a file whose functions serve several cases (run->of->what); or NULL */

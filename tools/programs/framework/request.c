@@ -11,7 +11,8 @@
 void sb_request_settings(const sb_request *request, sb_settings *settings)
 {
     *settings = (sb_settings){0};
-    snprintf(settings->resolution, sizeof settings->resolution, "resolution=%.9g", request->plan->resolution);
+    snprintf(settings->resolution, sizeof settings->resolution, "%s=%.9g",
+             request->of->grid ? "offshore.cell" : "resolution", request->plan->resolution);
     snprintf(settings->seed, sizeof settings->seed, "numerics.seed=%d", request->seed);
     settings->list[settings->count++] = settings->resolution;
     settings->list[settings->count++] = settings->seed;
@@ -59,6 +60,16 @@ static sb_status read_scene(const sb_request *request, const char *path, sb_scen
     return sb_settings_scene(path, preset, settings.list, settings.count, scene, error);
 }
 
+/* The files of the given water and of the depth-averaged model. */
+static sb_status hash_sea(const sb_scene *scene, uint64_t *hash, sb_error *error)
+{
+    sb_status status = scene->given.file ? sb_hash_file(scene->given.file, hash, error) : SB_OK;
+    for (size_t t = 0; status == SB_OK && t < scene->offshore.terrain_count; t++)
+        status = sb_hash_file(scene->offshore.terrain[t].file, hash, error);
+    if (status == SB_OK && scene->offshore.has_uplift) status = sb_hash_file(scene->offshore.uplift.file, hash, error);
+    return status;
+}
+
 sb_status sb_request_hash(const sb_request *request, const char *assets, uint64_t *hash, sb_error *error)
 {
     char path[SB_PATH_MAX];
@@ -70,6 +81,7 @@ sb_status sb_request_hash(const sb_request *request, const char *assets, uint64_
         if (scene.bodies[b].file) status = sb_hash_file(scene.bodies[b].file, hash, error);
     for (size_t w = 0; status == SB_OK && w < scene.wavemaker_count; w++)
         if (scene.wavemakers[w].law.file) status = sb_hash_file(scene.wavemakers[w].law.file, hash, error);
+    if (status == SB_OK) status = hash_sea(&scene, hash, error);
     sb_scene_free(&scene);
     return status;
 }

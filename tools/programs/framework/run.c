@@ -102,18 +102,20 @@ sb_status sb_finished_read(sb_finished *run, const char *folder, sb_error *error
         sb_finished_free(run);
         return status;
     }
+    const bool grid = sb_scene_grid_alone(&run->scene);
     run->view = (sb_case_run){.folder = run->folder,
                               .scene = &run->scene,
-                              .resolution = run->scene.resolution,
+                              .resolution = grid ? run->scene.offshore.cell : run->scene.resolution,
                               .wall = sb_json_number_in(text, "wall_s"),
+                              .cpu = sb_json_number_in(text, "processor_seconds"),
                               .iterations = sb_json_number_in(text, "mean_iterations"),
-                              .particles = (size_t)sb_json_number_in(text, "fluid_particles"),
+                              .particles = grid ? 0 : (size_t)sb_json_number_in(text, "fluid_particles"),
                               .steps = (size_t)sb_json_number_in(text, "steps"),
                               .label = run->label,
                               .slot = &run->slot,
                               .made = &run->made,
                               .error = &run->error};
-    run->cpu = sb_json_number_in(text, "processor_seconds");
+    run->cpu = run->view.cpu;
     run->threads = (int)sb_json_number_in(text, "threads");
     sb_free(text);
     return SB_OK;

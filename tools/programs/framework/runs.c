@@ -43,9 +43,9 @@ static sb_status begin(void *user, size_t i, sb_process *process, sb_error *erro
     if (status != SB_OK) return status;
     sb_request_settings(request, &l->settings);
     process->death_signal = SIGTERM;
-    /* A run that was stopped left a checkpoint, from which it resumes. */
+    /* A run that was stopped left a checkpoint, from which it resumes; one of a grid alone has none. */
     sb_process_shorebreak(process, l->store->program, l->scene, folder);
-    sb_process_add(process, "--resume", NULL);
+    sb_process_add(process, request->of->grid ? "--overwrite" : "--resume", NULL);
     sb_process_set(process, l->settings.list, l->settings.count);
     sb_process_add(process, "--preset", request->paper ? "paper" : "default", NULL);
     if (l->store->options->jobs > 1) sb_process_add(process, "--threads", "1", NULL);

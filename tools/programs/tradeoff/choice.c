@@ -33,6 +33,12 @@ const sb_choice sb_choices[] = {
     {.name = "no stress correction", .quick = true, .fixed = {"numerics.stress_correction=0"}},
     {.name = "no artificial viscosity", .fixed = {"numerics.artificial_viscosity=0"}},
     {.name = "artificial viscosity x 4", .key = "artificial_viscosity", .factor = 4},
+    {.name = "sea nested from x = 250", .quick = true, .subject = "plant", .scene = "../scenes/plant-coast.yaml",
+     .fixed = {"domain.min=[250, 0, -38]"}},
+    {.name = "sea nested from x = 400", .quick = true, .subject = "plant", .scene = "../scenes/plant-coast.yaml",
+     .fixed = {"domain.min=[400, 0, -38]", "measure.map.min=[400, 0]"}},
+    {.name = "sea nested from x = 250, two-way", .subject = "plant", .scene = "../scenes/plant-coast.yaml",
+     .fixed = {"domain.min=[250, 0, -38]", "offshore.coupling=two-way"}},
     {.name = "no settling", .fixed = {"numerics.settle_steps=0"}},
     /* What the preset `wen` changes: a choice has the preset `default` or `paper`. */
     {.name = "wcsph", .quick = true, .slow = true,
@@ -48,6 +54,11 @@ const sb_choice sb_choices[] = {
 size_t sb_choice_count(void)
 {
     return sizeof sb_choices / sizeof *sb_choices - 1;
+}
+
+bool sb_choice_is_for(const sb_choice *choice, const char *subject)
+{
+    return !choice->subject || strcmp(choice->subject, subject) == 0;
 }
 
 void sb_choice_change(const sb_choice *choice, const sb_numerics *defaults, char change[SB_CHOICE_TEXT])

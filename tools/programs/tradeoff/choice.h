@@ -2,7 +2,7 @@
 #ifndef SB_TRADEOFF_CHOICE_H
 #define SB_TRADEOFF_CHOICE_H
 
-#include "scene/scene.h"
+#include "case.h"
 
 enum { SB_CHOICE_FIXED = 16, SB_CHOICE_TEXT = 64 };
 
@@ -14,11 +14,16 @@ typedef struct sb_choice {
     const char *fixed[SB_CHOICE_FIXED]; /* KEY=VALUE */
     const char *key;                    /* of the sensitivity study's table of defaults; NULL: none */
     double factor;                      /* of that default */
+    const char *subject;                /* the only subject that has this row; NULL: all */
+    const char *scene; /* its scene instead of the subject's, relative to assets/validation; NULL: none */
 } sb_choice;
 
 /* The first is the unchanged default preset. */
 extern const sb_choice sb_choices[];
 size_t sb_choice_count(void);
+
+/* Whether a subject of that name has the row. */
+bool sb_choice_is_for(const sb_choice *choice, const char *subject);
 
 /* Writes "numerics.KEY=VALUE" for a row with a key: the default, as read from a scene, times the factor. "": the row
    has no key, or nothing changes. */

@@ -44,14 +44,17 @@ static void add(sb_contest *c, const sb_choice *choice, double spacing, const sb
             e->settings[used++] = choice->fixed[i];
         else
             snprintf(e->change, sizeof e->change, "%s", choice->fixed[i]);
+    const sb_case *of = c->subject->of;
+    if (choice && choice->scene) {
+        e->other = *of;
+        e->other.scene = choice->scene;
+        of = &e->other;
+    }
     e->plan = (sb_plan){.resolution = spacing, .settings = e->settings};
     for (int seed = 1; seed <= seeds; seed++) {
         sb_request *request = &c->trials[c->trial_count++].request;
-        *request = (sb_request){.of = c->subject->of,
-                                .plan = &e->plan,
-                                .paper = choice && choice->paper,
-                                .quick = selection->quick,
-                                .seed = seed};
+        *request = (sb_request){
+            .of = of, .plan = &e->plan, .paper = choice && choice->paper, .quick = selection->quick, .seed = seed};
         snprintf(request->change, sizeof request->change, "%s", e->change);
     }
 }
@@ -86,7 +89,8 @@ sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_st
     if (reference > 0 && any) add(c, NULL, reference, selection, &defaults);
     for (size_t i = 0; spacings[i] > 0; i++)
         for (const sb_choice *choice = sb_choices; choice->name && is_selected(selection, spacings, i); choice++)
-            if ((choice->quick || !(selection->quick || selection->few)) && (!choice->slow || subject->slow))
+            if ((choice->quick || !(selection->quick || selection->few)) && (!choice->slow || subject->slow) &&
+                sb_choice_is_for(choice, subject->name))
                 add(c, choice, spacings[i], selection, &defaults);
     return SB_OK;
 }

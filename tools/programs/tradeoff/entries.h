@@ -13,6 +13,7 @@ enum { SB_ENTRY_SETTINGS = 24, SB_ENTRY_SEEDS = 9, SB_REFERENCE_SEEDS = 2 };
 typedef struct sb_entry {
     const sb_choice *choice; /* NULL: the reference run */
     sb_plan plan;
+    sb_case other; /* the subject's case with the scene of the choice, if it has one */
     const char *settings[SB_ENTRY_SETTINGS];
     char change[SB_CHOICE_TEXT];         /* the setting in the labels of its runs; "": none */
     size_t first, seeds;                 /* its trials */

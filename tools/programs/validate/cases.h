@@ -46,7 +46,23 @@
     ROW(bar)                        \
     ROW(shoaling)                   \
     ROW(breakwater)                 \
-    ROW(jonswap)
+    ROW(jonswap)             \
+    ROW(sea_solitary_low)           \
+    ROW(sea_solitary)               \
+    ROW(sea_solitary_high)          \
+    ROW(sea_regular_long)           \
+    ROW(sea_regular_middle)         \
+    ROW(sea_regular_short)          \
+    ROW(sea_tide)                   \
+    ROW(sea_rest)                   \
+    ROW(sea_nested)                 \
+    ROW(sea_two_way)                \
+    ROW(sea_two_way_unknown)        \
+    ROW(grid_lake)                  \
+    ROW(grid_lake_dispersive)       \
+    ROW(grid_ritter)                \
+    ROW(grid_stoker)                \
+    ROW(grid_thacker)
 /* clang-format on */
 
 #define SB_CASE_DECLARE(name) extern const sb_case sb_case_##name;
