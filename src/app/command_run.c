@@ -106,7 +106,10 @@ static sb_status run_scene(const sb_options *options, sb_ranks *ranks, sb_scene 
     how->live_port = options->live_port;
     how->live_address = options->live_address;
     how->ranks = ranks;
-    if (sb_ranks_own(ranks) != 0) return sb_crew_follow(scene, out, how, error);
+    if (sb_ranks_own(ranks) != 0) {
+        sb_crew_follow(scene, out, how);
+        return SB_OK;
+    }
     return (sb_scene_grid_alone(scene) ? sb_grid_run : sb_run)(scene, out, how, error);
 }
 

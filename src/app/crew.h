@@ -53,8 +53,9 @@ void sb_crew_release(run *r);
 /* Rank 0 needs the others no more. Before the run's end. */
 void sb_crew_dismiss(run *r);
 
-/* Follows the orders of rank 0 until the run ends. The other ranks call it instead of sb_run. */
-sb_status sb_crew_follow(const sb_scene *scene, const char *directory, const struct sb_run_options *options,
-                         sb_error *error);
+/* Follows the orders of rank 0 until the run ends. The other ranks call it instead of sb_run. Rank 0 knows how it
+ * ended.
+ */
+void sb_crew_follow(const sb_scene *scene, const char *directory, const struct sb_run_options *options);
 
 #endif

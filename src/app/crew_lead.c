@@ -2,7 +2,6 @@
 #include "app/checkpoint.h"
 #include "app/crew_orders.h"
 #include "app/run.h"
-#include "base/memory.h"
 #include "base/stop.h"
 #include "mpi/world.h"
 
@@ -130,17 +129,17 @@ void sb_crew_dismiss(run *r)
 
 /* ---- the other ranks ---- */
 
-sb_status sb_crew_follow(const sb_scene *scene, const char *directory, const sb_run_options *options, sb_error *error)
+void sb_crew_follow(const sb_scene *scene, const char *directory, const sb_run_options *options)
 {
     run r = {.resolved = *scene, .directory = directory, .lock = -1, .crew = {.ranks = options->ranks}};
     order given = {0};
     r.scene = &r.resolved;
     sb_stop_watch();
     sb_stop_defer(true);
-    sb_status status = sb_checkpoint_begin(&r, error);
-    while (status == SB_OK && given.what != ORDER_DISMISS) (void)sb_crew_next(&r, &given, NULL);
+    (void)sb_checkpoint_begin(&r, NULL); /* rank 0 does the same, and says why if it fails */
+    while (given.what != ORDER_DISMISS) (void)sb_crew_next(&r, &given, NULL);
     sb_measure_destroy(r.measure);
     sb_sim_destroy(r.sim);
+    sb_checkpoint_end(&r);
     sb_model_free(&r.model);
-    return status;
 }

@@ -195,7 +195,6 @@ sb_status sb_sim_find_crowding(const sb_scene *scene, const sb_model *model, sb_
             status = sb_fail_memory(error, "facets of walls");
     }
     sb_walls_destroy(sim);
-    sb_strip_destroy(sim);
     sb_free(sim);
     return status;
 }
@@ -220,6 +219,7 @@ void sb_sim_destroy(sb_sim *sim)
     sb_cells_free(&sim->cells);
     sb_ghosts_destroy(sim);
     sb_walls_destroy(sim);
+    sb_strip_destroy(sim);
     sb_pushes_destroy(sim->pushes);
     sb_foam_destroy(sim->foam);
     sb_domains_destroy(sim->domains);

@@ -35,7 +35,10 @@ static int learn_side(sb_sim *sim, sb_strip_side *s)
     const double parts = 0x1p30 / (double)sim->constant.rest_density;
     const int64_t end = s->width + (int64_t)(SAMPLED * sim->scene->resolution / sim->space.quantum);
     uint64_t *sum = sb_alloc(2 * s->columns * s->rows, sizeof *sum);
-    if (!sum) return -1;
+    if (sb_ranks_any(sim->ranks, !sum)) {
+        sb_free(sum);
+        return -1;
+    }
     for (size_t i = 0; i < sim->state.n; i++) {
         const sb_record at = sim->state.position[i];
         const int64_t inwards = sb_strip_inwards(s, at);
@@ -103,7 +106,7 @@ static void find_given(sb_sim *sim)
 
 sb_status sb_stage_held(sb_sim *sim, sb_error *error)
 {
-    sb_status status = list_held(sim, error);
+    sb_status status = sim->exchange->agree(sim, list_held(sim, error), error);
     if (status == SB_OK && sim->needs.density_correction && !sim->strip->known) status = learn(sim, error);
     if (status != SB_OK) return status;
     find_given(sim);

@@ -283,7 +283,7 @@ sb_status sb_stage_inflow(sb_sim *sim, sb_error *error)
 {
     if (!sim->policy->runs) return SB_OK;
     sb_status status = sb_strip_measure(sim, error);
-    if (status == SB_OK) status = sb_strip_advance_grid(sim, error);
+    if (status == SB_OK) status = sim->exchange->agree(sim, sb_strip_advance_grid(sim, error), error);
     for (size_t k = 0; k < sim->strip->count && status == SB_OK; k++) {
         sb_strip_side *s = &sim->strip->side[k];
         count_leaving(sim, s);

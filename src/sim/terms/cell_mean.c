@@ -102,7 +102,8 @@ int sb_cell_mean(sb_sim *sim, float *xx, sb_f4 *rest)
 {
     sb_work *w = &sim->work;
     const size_t all = image_sums(sim) + sim->ghosts.cells.count;
-    if (sb_grow((void **)&w->cell_sum, &w->cell_sum_capacity, all, sizeof *w->cell_sum) != 0) return -1;
+    const int grown = sb_grow((void **)&w->cell_sum, &w->cell_sum_capacity, all, sizeof *w->cell_sum);
+    if (sb_ranks_any(sim->ranks, grown != 0)) return -1;
     sum_cells(sim, &sim->cells, rest, 0, 0);
     sum_cells(sim, &sim->ghosts.halo_cells, rest, sim->state.n, halo_sums(sim));
     sum_cells(sim, &sim->ghosts.cells, rest, sb_images_first(sim), image_sums(sim));

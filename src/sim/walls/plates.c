@@ -79,6 +79,7 @@ int sb_plates_measure(sb_sim *sim, sb_moving_body *moving)
         if (own) sb_sums_merge(sums, own, count);
         sb_free(own);
     }
+    enough = sim->exchange->agree(sim, enough ? SB_OK : SB_FAILED, NULL) == SB_OK;
     if (enough) {
         sim->exchange->sum(sim, sums, count);
         const double volume = (double)sim->constant.mass / (double)sim->constant.rest_density;

@@ -74,6 +74,7 @@ sb_status sb_stage_boundary_forces(sb_sim *sim, sb_error *error)
         if (enough) sb_sums_merge(all, own.all, values);
         sb_body_forces_free(&own);
     }
+    enough = sim->exchange->agree(sim, enough ? SB_OK : SB_FAILED, NULL) == SB_OK;
     if (enough) sim->exchange->sum(sim, all, values);
     for (size_t v = 0; v < values && enough; v++) sim->work.stress_force[v] = sb_exact_value(&all[v]);
     sb_free(all);

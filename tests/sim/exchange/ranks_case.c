@@ -81,6 +81,7 @@ static void show(sb_sim *sim, ranks_end *end, bool first)
     end->time = sb_sim_report(sim)->time;
     end->energy = sb_sim_energy(sim);
     end->departures = *sb_sim_departures(sim);
+    end->crossing = *sb_sim_crossing(sim);
     end->fluid = sb_sim_report(sim)->fluid_count;
     end->particles[0] = sb_sim_owned(sim);
     end->frame = sb_sim_snapshot(sim);

@@ -38,6 +38,7 @@ typedef struct ranks_end {
     double time;
     sb_energy energy;
     sb_departures departures;
+    sb_crossing crossing;
     size_t fluid, particles[RANKS_TEST_MAX]; /* of all, and of each rank */
     bool differs;                            /* ranks disagree */
     sb_error error;

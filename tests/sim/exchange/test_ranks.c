@@ -56,16 +56,18 @@ static const ranks_case cases[] = {
       "water={boxes: [{min: [0, 0, 0], max: [0.7, 0.6, 0.7]}]}", "numerics.settle_steps=0"}},
     {"given sea at two sides of a flume",
      TANK,
-     30,
+     45,
      {"dimensions=2", "domain={min: [0, 0], max: [4, 1.8], sides: {x_min: sea, x_max: sea}}",
-      "water={level: 1, seed: [2, 0.9]}", "sea={source: theory, wave: solitary, height: 0.3, depth: 1, origin: [2, 0]}",
+      "water={level: 1, seed: [2, 0.9]}",
+      "sea={source: theory, wave: components, depth: 1, ramp: 0.2, components: [{amplitude: 0.2, period: 1.6}]}",
       "numerics.settle_steps=4"}},
     {"given sea at a corner",
      TANK,
-     12,
+     25,
      {"resolution=0.2", "domain={min: [0, 0, 0], max: [3.2, 3.2, 1.8], sides: {x_min: sea, y_max: sea}}",
       "water={level: 1, seed: [1.6, 1.6, 0.8]}",
-      "sea={source: theory, wave: solitary, height: 0.3, depth: 1, origin: [-2, 0]}", "numerics.settle_steps=4"}},
+      "sea={source: theory, wave: components, depth: 1, ramp: 0.2, components: [{amplitude: 0.2, period: 1.6}]}",
+      "numerics.settle_steps=4"}},
     {"foam", COLUMN, 14, {"resolution=0.05", "numerics.settle_steps=4", "foam={enabled: true, most: 200}"}},
     {"weakly compressible water",
      COLUMN,
@@ -110,6 +112,7 @@ static void check_outputs(const ranks_case *c, const ranks_end *alone, const ran
     assert_memory_equal(&several->energy, &alone->energy, sizeof alone->energy);
     assert_int_equal(several->push_count, alone->push_count);
     assert_memory_equal(&several->push, &alone->push, sizeof alone->push);
+    assert_memory_equal(&several->crossing, &alone->crossing, sizeof alone->crossing);
     assert_int_equal(several->departures.count, alone->departures.count);
     assert_memory_equal(several->departures.by_side, alone->departures.by_side, sizeof alone->departures.by_side);
     for (size_t d = 0; d < alone->departures.count; d++)
@@ -136,7 +139,8 @@ static ranks_end run_alone(const ranks_case *c, const ranks_made *made, const ra
 {
     const ranks_end alone = ranks_run(c, made, way);
     if (alone.error.status != SB_OK) fail_msg("%s: %s", c->name, alone.error.text);
-    printf("%s: %zu particles, t = %g s\n", c->name, alone.fluid, alone.time);
+    printf("%s: %zu particles, t = %g s; %zu recorded forces, %zu departures, %g came in\n", c->name, alone.fluid,
+           alone.time, alone.push_count, alone.departures.count, (double)alone.crossing.in);
     return alone;
 }
 

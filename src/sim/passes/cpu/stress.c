@@ -254,6 +254,7 @@ int sb_cpu_correct(sb_sim *sim)
     sb_body_forces all;
     int status = sb_body_forces_create(&all, sim->model->body_count);
     if (status == 0 && !correct_all_reflected(sim, &all)) status = -1;
+    if (sim->exchange->agree(sim, status == 0 ? SB_OK : SB_FAILED, NULL) != SB_OK) status = -1;
     if (status == 0) sim->exchange->sum(sim, all.all, values);
     for (size_t v = 0; v < values && status == 0; v++) sim->work.stress_force[v] = sb_exact_value(&all.all[v]);
     sb_body_forces_free(&all);
