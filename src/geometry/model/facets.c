@@ -18,6 +18,10 @@ static const double STRAIGHT = 1e-6;
 /* Most points along one axis at which it is tested whether a facet is hidden. */
 enum { SAMPLES_MAX = 64 };
 
+/* In spacings: how far a side of the domain that bodies cut goes on beyond the domain. It is more than a support
+   radius, so that water never meets its end. */
+static const double BEYOND = 16;
+
 /* Sine of the bend up to which a surface is flat. */
 static const double FLAT = 1e-4;
 
@@ -33,8 +37,9 @@ typedef struct builder {
     const sb_model *model;
     const sb_model_space *space;
     double spacing;
-    bool *plate;                 /* by body: water may be on both sides of its surface */
-    sb_outlines *of_body;        /* by body; the domain's sides have none */
+    bool *plate;          /* by body: water may be on both sides of its surface */
+    sb_outlines *of_body; /* by body; of the domain's sides, by side: of_side */
+    sb_outlines of_side[SB_SIDES];
     const sb_outlines *outlines; /* of the present body */
     const bool *kept;            /* of them, those that are not hidden */
     sb_facets *out;
@@ -73,12 +78,19 @@ static bool outside_walls(const builder *b, sb_vec3 at)
     return false;
 }
 
+/* Whether bodies cut the side: where they meet it at less than 45 degrees, they are one bent surface. */
+static bool is_cut(const builder *b, int side)
+{
+    return b->of_side[side].count > 1;
+}
+
 /* ---- edges ---- */
 
-/* Which triangles count: those whose normal differs from, or (like) is, that of a facet. */
+/* Which triangles count: those whose normal is (LIKE), or is not (OTHER), that of a facet, or bends from it by less
+   than 45 degrees (GENTLE). */
 typedef struct normals {
     sb_vec3 normal;
-    bool like;
+    enum { LIKE, OTHER, GENTLE } which;
 } normals;
 
 static bool counts(const void *context, sb_vec3 nearest, sb_vec3 normal)
@@ -86,7 +98,8 @@ static bool counts(const void *context, sb_vec3 nearest, sb_vec3 normal)
     (void)nearest;
     const normals *of = context;
     const double along = sb_dot(of->normal, normal);
-    return (along > 1 - 1e-9) == of->like;
+    const bool like = along > 1 - 1e-9;
+    return of->which == LIKE ? like : !like && (of->which == OTHER || along >= BENT);
 }
 
 static sb_bend bend_of(sb_vec3 normal, sb_vec3 inward, sb_vec3 other)
@@ -111,12 +124,19 @@ static bool bend_towards(const builder *b, size_t body, const sb_facet *facet, c
 {
     const double near = TOUCHES * b->spacing;
     sb_vec3 normal, nearest;
-    normals which = {facet->normal, false};
+    normals which = {facet->normal, GENTLE};
+    /* A side of the domain ends where a surface cuts it, whatever else of the body touches it there. */
+    if (!has_mesh(b, facet->body) &&
+        sb_solid_distance_where(b->space->solid[body], at, near, counts, &which, &nearest, &normal) < near) {
+        *bend = bend_of(facet->normal, edge->inward, normal);
+        return true;
+    }
+    which.which = OTHER;
     if (sb_solid_distance_where(b->space->solid[body], at, near, counts, &which, &nearest, &normal) < near) {
         *bend = bend_of(facet->normal, edge->inward, normal);
         if (*bend != SB_BEND_CONCAVE || body == facet->body || fills_corner(b, body, facet, edge, at)) return true;
     }
-    which.like = true;
+    which.which = LIKE;
     const sb_vec3 beyond = sb_madd(at, -2 * near, edge->inward);
     if (sb_solid_distance_where(b->space->solid[body], beyond, near, counts, &which, &nearest, &normal) < near) {
         *bend = SB_BEND_SOFT;
@@ -159,7 +179,7 @@ static sb_bend find_bend(const builder *b, size_t self, const sb_facet *facet, c
     for (int side = 0; side < SB_SIDES; side++)
         if (is_wall(b, side) && from_side(b, side, at) < TOUCHES * b->spacing &&
             sb_dot(side_normal(side), edge->inward) > FLAT)
-            return SB_BEND_CONCAVE;
+            return is_cut(b, side) ? bend_of(facet->normal, edge->inward, side_normal(side)) : SB_BEND_CONCAVE;
     for (size_t body = 0; body < b->model->body_count; body++) {
         if (!has_mesh(b, body) || !b->space->solid[body]) continue;
         sb_bend bend;
@@ -354,9 +374,9 @@ static int find_outlines(builder *b)
     return status;
 }
 
-static int add_body(builder *b, size_t body)
+/* Adds the facets of a body that water can meet. */
+static int add_outlines(builder *b, const sb_outlines *outlines, size_t body)
 {
-    const sb_outlines *outlines = &b->of_body[body];
     bool *kept = sb_alloc(outlines->count, sizeof *kept);
     int status = kept ? 0 : -1;
     for (size_t k = 0; k < outlines->count && status == 0; k++) {
@@ -371,10 +391,71 @@ static int add_body(builder *b, size_t body)
     return status;
 }
 
+/* The outline of a side, which goes on beyond the domain: in 2D a segment. Returns 0, or -1 without memory. */
+static int outline_side(const builder *b, int side, sb_outlines *out)
+{
+    const bool flat = b->model->dimensions == 2;
+    const double beyond = BEYOND * b->spacing;
+    const sb_vec3 n = side_normal(side), reach = sb_vec(beyond, beyond, beyond);
+    const sb_vec3 on = side % 2 ? b->model->max : b->model->min;
+    const sb_vec3 low = sb_sub(b->model->min, reach), high = sb_add(b->model->max, reach);
+    const size_t corners = flat ? 2 : 4;
+    out->outline = sb_alloc(1, sizeof *out->outline);
+    if (!out->outline) return -1;
+    out->capacity = 1;
+    out->outline[0] = (sb_outline){.normal = n, .corner = sb_alloc(corners, sizeof(sb_vec3))};
+    if (!out->outline[0].corner) return -1;
+    out->count = 1;
+    out->outline[0].count = corners;
+    const int axis = side / 2, u = flat ? 2 - axis : (axis + 1) % 3, v = (axis + 2) % 3;
+    for (size_t k = 0; k < corners; k++) {
+        double at[3] = {0};
+        at[axis] = component(on, axis);
+        at[u] = component(k == 0 || k == 3 ? low : high, u);
+        if (!flat) at[v] = component(k < 2 ? low : high, v);
+        /* counter-clockwise seen along -n: the order turns with the side */
+        out->outline[0].corner[side % 2 && !flat ? 3 - k : k] = sb_vec(at[0], at[1], at[2]);
+    }
+    return 0;
+}
+
+/* Whether the domain repeats along a side, whose outline would then meet its own images. */
+static bool repeats_along(const builder *b, int side)
+{
+    for (int other = 0; other < SB_SIDES; other++)
+        if (other / 2 != side / 2 && b->scene->domain.side[other] == SB_SIDE_PERIODIC &&
+            !(b->model->dimensions == 2 && other / 2 == 1))
+            return true;
+    return false;
+}
+
+/* Cuts the sides by the surfaces of bodies that meet them at less than 45 degrees, and these by the sides. A side that
+   no body cuts stays whole. */
+static int cut_sides(builder *b)
+{
+    int status = 0;
+    for (int side = 0; side < SB_SIDES && status == 0; side++) {
+        if (!is_wall(b, side) || repeats_along(b, side)) continue;
+        sb_outlines *outlines = &b->of_side[side], whole = {0};
+        status = outline_side(b, side, outlines);
+        if (status == 0) status = outline_side(b, side, &whole);
+        for (size_t k = 0; k < b->model->body_count && status == 0; k++)
+            if (cuts(b, k)) status = sb_outlines_cut(outlines, &b->of_body[k], BENT, CUT * b->spacing);
+        for (size_t k = 0; k < b->model->body_count && status == 0 && is_cut(b, side); k++)
+            if (cuts(b, k)) status = sb_outlines_cut(&b->of_body[k], &whole, BENT, CUT * b->spacing);
+        sb_outlines_free(&whole);
+    }
+    return status;
+}
+
 static int add_sides(builder *b, size_t body)
 {
     for (int side = 0; side < SB_SIDES; side++) {
         if (!is_wall(b, side)) continue;
+        if (is_cut(b, side)) {
+            if (add_outlines(b, &b->of_side[side], body) != 0) return -1;
+            continue;
+        }
         if (sb_grow((void **)&b->out->facets, &b->capacity, b->out->count + 1, sizeof *b->out->facets) != 0) return -1;
         const sb_vec3 n = side_normal(side);
         b->out->facets[b->out->count++] = (sb_facet){
@@ -389,9 +470,11 @@ sb_status sb_model_facets(const sb_scene *scene, const sb_model_space *space, sb
     builder b = {.scene = scene, .model = model, .space = space, .spacing = model->spacing, .out = &model->facets};
     int status = find_plates(&b);
     if (status == 0) status = find_outlines(&b);
+    if (status == 0) status = cut_sides(&b);
     for (size_t k = 0; k < model->body_count && status == 0; k++)
-        status = has_mesh(&b, k) ? add_body(&b, k) : add_sides(&b, k);
+        status = has_mesh(&b, k) ? add_outlines(&b, &b.of_body[k], k) : add_sides(&b, k);
     for (size_t k = 0; k < model->body_count && b.of_body; k++) sb_outlines_free(&b.of_body[k]);
+    for (int side = 0; side < SB_SIDES; side++) sb_outlines_free(&b.of_side[side]);
     sb_free(b.of_body);
     sb_free(b.plate);
     return status == 0 ? SB_OK : sb_fail_memory(error, "facets of walls");

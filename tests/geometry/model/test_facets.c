@@ -448,6 +448,52 @@ static void two_planes_of_many_triangles(void **state)
     assert_int_equal(bends(level, SB_BEND_CONCAVE), 3);
 }
 
+/* A gentle slope that stands on the domain's floor: where they meet, the facets of both end and bend towards the water.
+   What the slope covers of the floor is no facet; the other sides stay whole. */
+static void check_slope_on_floor(double below)
+{
+    const double rise = 1.2 / 6;
+    const double x[2] = {4 - below / rise, 12}, z[2] = {-below, rise * 8};
+    double vertex[6][3] = {{x[0], -1, z[0]},    {x[0], 7, z[0]},  {x[1], -1, z[0] - 1},
+                           {x[1], 7, z[0] - 1}, {x[1], -1, z[1]}, {x[1], 7, z[1]}};
+    int triangle[8][3] = {{0, 4, 5}, {0, 5, 1}, {0, 1, 3}, {0, 3, 2}, {2, 3, 5}, {2, 5, 4}, {0, 2, 4}, {1, 5, 3}};
+    add_mesh("slope", 6, vertex, 8, triangle);
+    build_once();
+    const size_t slope = body_of("slope"), sides = body_of("domain");
+    const sb_vec3 up = sb_normalize(sb_vec(-rise, 0, 1)), along = sb_normalize(sb_vec(1, 0, rise));
+    const bool flat = scene.dimensions == 2;
+    const sb_facet *floor = facet_at(sides, Z, sb_vec(2, flat ? 0 : 3, 0));
+    assert_non_null(floor);
+    assert_int_equal(floor->edges, flat ? 2 : 4);
+    assert_int_equal(bend(floor, minus(X)), SB_BEND_HOLLOW);
+    assert_int_equal(bends(floor, SB_BEND_CONCAVE), flat ? 1 : 3);
+    assert_non_null(facet_at(sides, Z, sb_vec(3.99, flat ? 0 : 3, 0)));
+    assert_null(facet_at(sides, Z, sb_vec(4.01, flat ? 0 : 3, 0)));
+    const sb_facet *wet = facet_at(slope, up, sb_vec(7, flat ? 0 : 3, 3 * rise));
+    assert_int_equal(bend(wet, along), SB_BEND_HOLLOW);
+    assert_null(facet_at(slope, up, sb_vec(3.9, flat ? 0 : 3, -0.1 * rise)));
+    assert_int_equal(count_of(sides), flat ? 3 : 5);
+    for (size_t k = 0; k < model.facets.count; k++)
+        assert_true(model.facets.facets[k].body == slope || &model.facets.facets[k] == floor ||
+                    model.facets.facets[k].edges == 0);
+}
+
+static void a_slope_on_the_floor_of_the_domain(void **state)
+{
+    check_slope_on_floor(0);
+    tear_down(state);
+    set_up_images(state);
+    check_slope_on_floor(0.3); /* it goes on below the floor */
+}
+
+static void a_section_of_a_slope_on_the_floor(void **state)
+{
+    (void)state;
+    scene.dimensions = 2;
+    scene.sea.seed = sb_vec(2, 0, 2);
+    check_slope_on_floor(0);
+}
+
 #define IMAGES(f) cmocka_unit_test_setup_teardown(f, set_up_images, tear_down)
 
 int main(void)
@@ -464,6 +510,8 @@ int main(void)
         IMAGES(two_planes_of_many_triangles),
         IMAGES(a_plate),
         IMAGES(a_terrain),
+        IMAGES(a_slope_on_the_floor_of_the_domain),
+        IMAGES(a_section_of_a_slope_on_the_floor),
         IMAGES(sections),
         IMAGES(many_triangles),
     };

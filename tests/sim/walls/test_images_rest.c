@@ -67,6 +67,26 @@ static void a_pier_hides_the_recess_behind_it(void **state)
     assert_true(sqrt(alone) < 0.01 && sqrt(recess) < 0.01);
 }
 
+/* Water over a gentle slope that stands on the domain's own floor: the floor behind the slope reflects nothing. */
+static void the_floor_ends_at_the_foot_of_a_slope(void **state)
+{
+    (void)state;
+    basin b;
+    basin_fill(&b, 2, "0.05", "[4, 1]", "{level: 0.5, seed: [0.2, 0.2]}",
+               "[{name: slope, shape: box, min: [0, -2], max: [4, 0], rotate: [0, -10, 0], translate: [1.2, 0, 0]}]",
+               "completed");
+    basin_settle(&b);
+    assert_int_equal(tank_steps(b.sim, 400), 0);
+    double square = 0;
+    for (size_t i = 0; i < b.sim->state.n; i++) {
+        const sb_f4 v = b.sim->state.velocity[i];
+        square += (double)sb_sum3(v * v) / (double)b.sim->state.n;
+    }
+    printf("speed over a slope on the floor: %.2g of sqrt(gD)\n", sqrt(square / (9.81 * 0.5)));
+    assert_true(sqrt(square / (9.81 * 0.5)) < 0.01);
+    basin_free(&b);
+}
+
 /* A bed of 40 x 40 squares of 0.3 spacings, whose corners are at random heights up to `high` (m). Returns the
    key "bodies". */
 static const char *fine_bed(double high, char path[256], char bodies[512])
@@ -133,9 +153,8 @@ static void a_bed_of_too_fine_facets_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(still_water_exerts_no_force_on_blocks),
-        cmocka_unit_test(a_pier_hides_the_recess_behind_it),
-        cmocka_unit_test(a_bed_of_fine_facets_is_simplified),
+        cmocka_unit_test(still_water_exerts_no_force_on_blocks), cmocka_unit_test(a_pier_hides_the_recess_behind_it),
+        cmocka_unit_test(the_floor_ends_at_the_foot_of_a_slope), cmocka_unit_test(a_bed_of_fine_facets_is_simplified),
         cmocka_unit_test(a_bed_of_too_fine_facets_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
