@@ -14,15 +14,15 @@ typedef struct part {
     double low, high;
 } part;
 
-/* Limits a line to the part in an outline's border, or within `near` of it. */
-static void limit(part *line, const sb_outline *o, double near)
+/* Limits a line to the part in an outline's border, or within `reach` of it. */
+static void limit(part *line, const sb_outline *o, double reach)
 {
     for (size_t k = 0; k < o->count; k++) {
         const sb_vec3 from = o->corner[k], side = sb_sub(o->corner[(k + 1) % o->count], from);
         const sb_vec3 inward = sb_normalize(o->count == 2 ? side : sb_cross(o->normal, side));
         const double at = sb_dot(inward, sb_sub(line->origin, from)), rate = sb_dot(inward, line->along);
         if (fabs(rate) < 1e-9) {
-            if (at < -near) line->high = -(double)INFINITY;
+            if (at < -reach) line->high = -(double)INFINITY;
         } else if (rate > 0)
             line->low = fmax(line->low, -at / rate);
         else
@@ -31,15 +31,15 @@ static void limit(part *line, const sb_outline *o, double near)
 }
 
 /* Length of the line in which two outlines cross; in 2D infinite if they cross. Negative: they do not. */
-static double crossing(const sb_outline *a, const sb_outline *b, double near)
+static double crossing(const sb_outline *a, const sb_outline *b, double reach)
 {
     const double c = sb_dot(a->normal, b->normal), e = 1 - c * c;
     const double da = sb_dot(a->normal, a->corner[0]), db = sb_dot(b->normal, b->corner[0]);
     part line = {
         .along = sb_normalize(sb_cross(a->normal, b->normal)), .low = -(double)INFINITY, .high = (double)INFINITY};
     line.origin = sb_add(sb_scale(a->normal, (da - c * db) / e), sb_scale(b->normal, (db - c * da) / e));
-    limit(&line, a, near);
-    limit(&line, b, near);
+    limit(&line, a, reach);
+    limit(&line, b, reach);
     return line.high - line.low;
 }
 
@@ -60,8 +60,8 @@ static bool straddles(const sb_outline *o, const sb_outline *plane, double near)
     return low < -near && high > near;
 }
 
-/* Whether an outline crosses a plane, or stands on it. */
-static bool reaches(const sb_outline *o, const sb_outline *plane, double near)
+/* Whether an outline crosses a plane, or ends within `reach` before it. */
+static bool reaches(const sb_outline *o, const sb_outline *plane, double reach)
 {
     double low = (double)INFINITY, high = -(double)INFINITY;
     for (size_t k = 0; k < o->count; k++) {
@@ -69,7 +69,7 @@ static bool reaches(const sb_outline *o, const sb_outline *plane, double near)
         low = fmin(low, at);
         high = fmax(high, at);
     }
-    return low < near && high > near;
+    return low < reach && high > reach;
 }
 
 /* The part of an outline before (side 1) or behind (side -1) a plane. Corners are NULL without memory. */
@@ -120,7 +120,7 @@ static bool overlaps(const sb_outline *o, sb_vec3 min, sb_vec3 max)
     return low.x <= max.x && low.y <= max.y && low.z <= max.z && high.x >= min.x && high.y >= min.y && high.z >= min.z;
 }
 
-int sb_outlines_cut(sb_outlines *outlines, const sb_outlines *by, double bend, double near)
+int sb_outlines_cut(sb_outlines *outlines, const sb_outlines *by, double bend, double near, double reach)
 {
     sb_vec3 min = {(double)INFINITY, (double)INFINITY, (double)INFINITY}, max = sb_scale(min, -1);
     for (size_t p = 0; p < by->count; p++) grow(&by->outline[p], &min, &max);
@@ -129,8 +129,8 @@ int sb_outlines_cut(sb_outlines *outlines, const sb_outlines *by, double bend, d
         for (size_t p = 0; p < by->count; p++) {
             const sb_outline *o = &outlines->outline[k], *plane = &by->outline[p];
             const double along = sb_dot(o->normal, plane->normal);
-            if (along < bend || along > PARALLEL || !straddles(o, plane, near) || !reaches(plane, o, near)) continue;
-            if (crossing(o, plane, near) > near && cut(outlines, k, plane) != 0) return -1;
+            if (along < bend || along > PARALLEL || !straddles(o, plane, near) || !reaches(plane, o, reach)) continue;
+            if (crossing(o, plane, reach) > near && cut(outlines, k, plane) != 0) return -1;
         }
     }
     return 0;

@@ -370,7 +370,7 @@ static int find_outlines(builder *b)
     for (size_t k = 0; k < bodies && status == 0; k++)
         for (size_t by = 0; by < bodies && status == 0; by++)
             if (by != k && cuts(b, k) && cuts(b, by))
-                status = sb_outlines_cut(&b->of_body[k], &b->of_body[by], BENT, CUT * b->spacing);
+                status = sb_outlines_cut(&b->of_body[k], &b->of_body[by], BENT, CUT * b->spacing, 0);
     return status;
 }
 
@@ -433,6 +433,7 @@ static bool repeats_along(const builder *b, int side)
    no body cuts stays whole. */
 static int cut_sides(builder *b)
 {
+    const double near = CUT * b->spacing;
     int status = 0;
     for (int side = 0; side < SB_SIDES && status == 0; side++) {
         if (!is_wall(b, side) || repeats_along(b, side)) continue;
@@ -440,9 +441,9 @@ static int cut_sides(builder *b)
         status = outline_side(b, side, outlines);
         if (status == 0) status = outline_side(b, side, &whole);
         for (size_t k = 0; k < b->model->body_count && status == 0; k++)
-            if (cuts(b, k)) status = sb_outlines_cut(outlines, &b->of_body[k], BENT, CUT * b->spacing);
+            if (cuts(b, k)) status = sb_outlines_cut(outlines, &b->of_body[k], BENT, near, near);
         for (size_t k = 0; k < b->model->body_count && status == 0 && is_cut(b, side); k++)
-            if (cuts(b, k)) status = sb_outlines_cut(&b->of_body[k], &whole, BENT, CUT * b->spacing);
+            if (cuts(b, k)) status = sb_outlines_cut(&b->of_body[k], &whole, BENT, near, near);
         sb_outlines_free(&whole);
     }
     return status;
