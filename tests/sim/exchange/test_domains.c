@@ -14,7 +14,8 @@
 #define BASIN "domain={min: [0, 0, 0], max: [2.4, 1.2, 1]}"
 #define WATER "water={boxes: [{min: [0, 0, 0], max: [1.2, 1.2, 0.6]}]}"
 
-static const ranks_case basin = {"basin", "tests/sim/tank.yaml", 0, {BASIN, WATER, "numerics.settle_steps=0"}};
+static const ranks_case basin = {
+    .name = "basin", .file = "tests/sim/tank.yaml", .set = {BASIN, WATER, "numerics.settle_steps=0"}};
 
 enum { RANKS = 3, STEPS = 20 };
 
