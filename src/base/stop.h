@@ -17,7 +17,7 @@ void sb_stop_watch(void);
 void sb_stop_defer(bool on);
 /* The signal that waits, or 0. */
 int sb_stop_waiting(void);
-/* Notes this signal, which another process may have received; cause: as of sb_stop_cause. */
+/* Notes this signal, which another process may have received; by_command: whether it is the request of a command. */
 void sb_stop_accept(int number, bool by_command);
 /* Whether what waits is the request of a command. */
 bool sb_stop_by_command(void);

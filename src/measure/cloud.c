@@ -45,8 +45,8 @@ sb_status sb_cloud_add(sb_cloud *cloud, const sb_sim *sim, sb_vec3 min, sb_vec3 
         if (more == SIZE_MAX) return sb_fail_memory(error, "measured particles");
         found = before + more;
         if (found <= cloud->capacity) break;
-        if (sb_grow((void **)&cloud->samples, &cloud->capacity, found, sizeof *cloud->samples) != 0)
-            return sb_fail_memory(error, "measured particles");
+        const int grown = sb_grow((void **)&cloud->samples, &cloud->capacity, found, sizeof *cloud->samples);
+        if (sb_ranks_any(sb_sim_ranks(sim), grown != 0)) return sb_fail_memory(error, "measured particles");
     }
     for (size_t i = before; i < found; i++) {
         sb_fluid_sample sample = cloud->samples[i];

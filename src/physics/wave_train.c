@@ -15,7 +15,7 @@ sb_wave_train *sb_wave_train_create(const sb_wavemaker_parameters *parameters, s
                              .ramp = parameters->ramp,
                              .lasts = parameters->lasts,
                              .count = count,
-                             .part = sb_alloc(count, sizeof *train->part)};
+                             .part = count > 0 ? sb_alloc(count, sizeof *train->part) : NULL};
     if (count == 0 || train->part) return train;
     sb_free(train);
     return NULL;

@@ -124,11 +124,9 @@ static void fill_particles(sb_sim *sim)
 }
 
 /* Divides the particles among the ranks of the run. */
-static sb_status create_domains(sb_sim *sim, sb_ranks *ranks, sb_error *error)
+static sb_status create_domains(sb_sim *sim, sb_error *error)
 {
-    if (!sb_ranks_several(ranks)) return SB_OK;
-    sim->ranks = ranks;
-    sim->exchange = &sb_exchange_domains;
+    if (!sim->ranks) return SB_OK;
     const sb_status status = sb_domains_agree(sim, sb_domains_create(sim, error), error);
     if (status != SB_OK) return status;
     return sb_domains_cut(sim, place_of, sim->model, sim->model->fluid_count, error);
@@ -137,11 +135,15 @@ static sb_status create_domains(sb_sim *sim, sb_ranks *ranks, sb_error *error)
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_ranks *ranks, sb_sim **sim, sb_error *error)
 {
     sb_sim *made = sb_alloc(1, sizeof *made);
-    if (!made) return sb_fail_memory(error, "the simulation");
+    if (sb_ranks_any(ranks, !made)) {
+        sb_free(made);
+        return sb_fail_memory(error, "the simulation");
+    }
     made->scene = scene;
     made->model = model;
     made->passes = sb_passes_choose();
-    made->exchange = &sb_exchange_alone;
+    made->ranks = sb_ranks_several(ranks) ? ranks : NULL;
+    made->exchange = made->ranks ? &sb_exchange_domains : &sb_exchange_alone;
     made->policy = &sb_policy_run;
     made->needs = needs_of(scene, model);
     sb_status status = SB_OK;
@@ -153,20 +155,20 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_ranks *
         status = create_space(made, error);
         made->work.pairs.unit = sb_lists_unit(made);
     }
-    if (status == SB_OK) status = create_domains(made, ranks, error);
+    if (status == SB_OK) status = create_domains(made, error);
     if (status == SB_OK && allocate(made, count_particles(made)) != 0)
         status = sb_fail_memory(error, "fluid particles");
     if (status == SB_OK) status = sb_walls_create(made, error);
     if (status == SB_OK) status = sb_strip_create(made, error);
     if (status == SB_OK) status = sb_foam_create(made, error);
-    if (made->domains) status = sb_domains_agree(made, status, error);
+    status = made->exchange->agree(made, status, error);
     if (status != SB_OK) {
         sb_sim_destroy(made);
         return status;
     }
     fill_particles(made);
     sb_report_skipped(made);
-    status = sb_stage_sort(made, error);
+    status = made->exchange->agree(made, sb_stage_sort(made, error), error);
     if (status != SB_OK) {
         sb_sim_destroy(made);
         return status;

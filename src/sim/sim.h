@@ -28,8 +28,8 @@ typedef struct sb_body_impulse {
 /* Creates a simulation. scene and model must outlive it: it reads names, wave makers and, until it has settled, the
    initial velocities. The exceptions are the parts that sb_model_free_start frees, and, after settling,
    sb_model_free_particles. ranks: those that compute the run together, which outlive it, each with the same scene and
-   model; NULL: one computes it. All ranks call the
-   functions below that say "together", in the same order; with one rank these are as any others. */
+   model; NULL: one computes it. "Together" below: all ranks call the function, in the same order and with the same
+   arguments, and get the same result; with one rank it is as any other. Together. */
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_ranks *ranks, sb_sim **sim, sb_error *error);
 /* The time step (s) for water with this maximum speed (m/s): an estimate that needs no simulation. */
 double sb_sim_longest_step(const sb_scene *scene, const sb_model *model, double speed);
@@ -54,10 +54,12 @@ int sb_sim_settle_most(const sb_scene *scene);
 int sb_sim_settle_expected(const sb_scene *scene);
 
 /* Settling, if the scene has it: brings the water to rest with paddles at rest, holding the surface of an initial wave,
-   then gives it the scene's velocities. Time stays 0. A simulation that was saved during settling continues there. */
+   then gives it the scene's velocities. Time stays 0. A simulation that was saved during settling continues there.
+   Together. */
 sb_status sb_sim_settle(sb_sim *sim, sb_error *error);
 /* The same, calling `watch` after each step but the last with the steps done, the largest number of steps (which
-   decreases if the water calms early), and the highest speed, m/s. The simulation may be saved in `watch`. */
+   decreases if the water calms early), and the highest speed, m/s. The simulation may be saved in `watch`. Together,
+   where each rank has its own `watch` or none. */
 typedef void sb_settle_watch(void *context, int done, int most, double speed);
 sb_status sb_sim_settle_watched(sb_sim *sim, sb_settle_watch *watch, void *context, sb_error *error);
 
@@ -72,11 +74,13 @@ sb_rest sb_sim_rest(const sb_sim *sim);
 /* Whether settling is in progress; *done: the number of settling steps done. */
 bool sb_sim_settling(const sb_sim *sim, int *done);
 
-/* Advances one step. SB_FAILED if the run has diverged: *error has step, position and reason; the state is readable. */
+/* Advances one step. SB_FAILED if the run has diverged: *error has step, position and reason; the state is readable.
+   Together. */
 sb_status sb_sim_step(sb_sim *sim, sb_error *error);
 
 /* Starts a wave maker of the scene (an index) that waits for a command: its motion begins at the time of the report, as
-   if its `start` were that time, with the same bits. SB_BAD_INPUT if it does not wait, or during settling. */
+   if its `start` were that time, with the same bits. SB_BAD_INPUT if it does not wait, or during settling. Together: a
+   rank that is not told moves its paddle otherwise. */
 sb_status sb_sim_trigger(sb_sim *sim, size_t wavemaker, sb_error *error);
 
 const sb_step_report *sb_sim_report(const sb_sim *sim);
@@ -86,6 +90,7 @@ sb_absorption sb_sim_absorption(const sb_sim *sim, size_t body);
 const sb_body_impulse *sb_sim_impulse(const sb_sim *sim, size_t body);
 sb_vec3 sb_sim_body_displacement(const sb_sim *sim, size_t body);
 
+/* Of all particles. Together. */
 sb_energy sb_sim_energy(const sb_sim *sim);
 /* Since t = 0. */
 const sb_ledger *sb_sim_ledger(const sb_sim *sim);
@@ -98,22 +103,25 @@ const sb_offshore_maps *sb_sim_grid_maps(const sb_sim *sim);
 
 const sb_departures *sb_sim_departures(const sb_sim *sim);
 
-/* The state hash. */
+/* The state hash. Together. */
 uint64_t sb_sim_hash(const sb_sim *sim);
 
-/* Saves the state between two steps as a section of an archive. The simulation does not change. */
+/* Saves the state between two steps as a section of an archive. The simulation does not change. Together: rank 0 writes
+   the state of all, and `out` is NULL in the others. */
 void sb_sim_save(const sb_sim *sim, sb_archive_out *out);
 /* Loads a saved state into a simulation of the same scene and model, which then continues bit for bit like the saved
    one. Queries find no water before its next step. SB_BAD_INPUT if the section belongs to another model or has
-   impossible values. Only then is the state undefined: load another state or destroy the simulation. */
+   impossible values. Only then is the state undefined: load another state or destroy the simulation. Together: each
+   rank reads the same archive, of its own. */
 sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error);
 
 /* Computes the virial pressures after the last step, for snapshots and queries (docs/method.md, M17a). This takes one
    pass over pairs, or none if they are known already. Without this call, snapshots and queries contain the solver
-   pressure, which is noisier and in settled water a few per cent higher. The state does not change. */
+   pressure, which is noisier and in settled water a few per cent higher. The state does not change. Together. */
 void sb_sim_find_virial_pressures(sb_sim *sim);
 
-/* Makes a frame of positions, velocities, pressures and the bodies' displacements; NULL without memory. */
+/* Makes a frame of positions, velocities, pressures and the bodies' displacements; NULL without memory. Together: rank
+   0 gets the particles of all, and the frames of the others have none. */
 sb_frame *sb_sim_snapshot(const sb_sim *sim);
 
 /* Finds all fluid particles in the box [min, max], in a fixed order, for gauges and probes. Positions are in the
@@ -142,9 +150,9 @@ typedef struct sb_push_place {
     double range; /* m */
 } sb_push_place;
 /* From the next step on, each step records the forces near these places. Replaces the places given before. The state
-   does not change. */
+   does not change. Together. */
 sb_status sb_sim_record_pushes(sb_sim *sim, const sb_push_place *places, size_t count, sb_error *error);
-/* Those of the last step, in no fixed order. */
+/* Those of the last step, of all ranks, in no fixed order. */
 const sb_wall_push *sb_sim_pushes(const sb_sim *sim, size_t *count);
 
 /* The ranks that compute the run together; NULL: one. */
@@ -154,7 +162,7 @@ size_t sb_sim_owned(const sb_sim *sim);
 /* How the work is divided among the ranks. */
 typedef struct sb_division {
     size_t owned, halo; /* particles of this rank, and those of other ranks that it reads */
-    double imbalance;   /* largest load of a rank over the mean, less 1, by counted pairs; looked at every few steps */
+    double imbalance;   /* largest load of a rank over the mean, less 1, by pairs; counted once in several searches */
     uint64_t cuts;      /* how often the particles have been divided anew */
 } sb_division;
 sb_division sb_sim_division(const sb_sim *sim);

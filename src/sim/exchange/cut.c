@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* A block's own cells, and what a step costs per particle besides its pairs, in pairs. */
-enum { CELLS_OF_BLOCK = 1 << SB_BLOCK_BITS, PAIRS_PER_PARTICLE = 16 };
+enum { CELLS_OF_BLOCK = 1 << SB_CELLS_BITS, PAIRS_PER_PARTICLE = 16 };
 
 /* The load is looked at after every so many searches. The keys are cut anew if the largest load is above the mean by
    more than a share IMBALANCE, and if the new cut removes at least the share WORTH of that. */
@@ -75,10 +75,11 @@ static uint64_t load_of_all(const sb_sim *sim)
     return load;
 }
 
-/* A cut that a rank proposes, because the load's share lies among its groups: the key, and the load before it. */
+/* A cut that a rank proposes, because the load's share lies among its groups: the key, and the load before it. All 0:
+   the share lies among the groups of another rank. */
 typedef struct proposal {
     uint64_t key, before;
-    bool valid;
+    uint64_t ranks; /* that propose it: 1, or 0 */
 } proposal;
 
 static uint64_t block_of_group(const sb_sim *sim, const sb_group *group)
@@ -102,7 +103,7 @@ static void propose(const sb_sim *sim, uint64_t before, uint64_t all, proposal *
             const uint64_t share = all / ranks * r;
             if (share < start) continue;
             const bool at_start = share - start <= load - share;
-            made[r] = (proposal){at_start ? block : block + CELLS_OF_BLOCK, at_start ? start : load, true};
+            made[r] = (proposal){at_start ? block : block + CELLS_OF_BLOCK, at_start ? start : load, 1};
         }
     }
 }
@@ -119,18 +120,15 @@ static uint64_t largest_load(const proposal *made, size_t ranks, uint64_t all)
     return largest;
 }
 
-/* Collects the proposals of all ranks. Returns whether there is one for each cut. */
-static bool collect(sb_sim *sim, proposal *made)
+/* Collects the proposals of all ranks, of which at most one proposes each cut. Returns whether there is one for each.
+ */
+static bool collect(sb_ranks *ranks, proposal *made)
 {
-    sb_ranks *ranks = sim->ranks;
+    enum { VALUES = sizeof(proposal) / sizeof(uint64_t) };
+    _Static_assert(sizeof(proposal) == 3 * sizeof(uint64_t), "no padding");
     bool complete = true;
-    for (int r = 1; r < ranks->count; r++) {
-        proposal all[SB_RANKS_MAX];
-        sb_ranks_gather(ranks, &made[r], sizeof made[r], all);
-        for (int from = 0; from < ranks->count; from++)
-            if (all[from].valid) made[r] = all[from];
-        complete &= made[r].valid;
-    }
+    sb_ranks_add(ranks, &made[1].key, VALUES * (size_t)(ranks->count - 1));
+    for (int r = 1; r < ranks->count; r++) complete &= made[r].ranks == 1;
     return complete;
 }
 
@@ -152,7 +150,7 @@ void sb_domains_balance(sb_sim *sim, bool found)
     proposal made[SB_RANKS_MAX];
     memset(made, 0, sizeof made);
     if (found) propose(sim, before, all, made);
-    if (!collect(sim, made) || (double)largest_load(made, ranks, all) - mean > (1 - WORTH) * excess) return;
+    if (!collect(d->ranks, made) || (double)largest_load(made, ranks, all) - mean > (1 - WORTH) * excess) return;
     for (size_t r = 1; r < ranks; r++) d->next[r] = made[r].key;
     d->next[0] = 0;
     d->next[ranks] = UINT64_MAX;

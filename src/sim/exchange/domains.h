@@ -9,7 +9,9 @@
 #include "sim/exchange/exchange.h"
 #include "sim/search/pairs.h"
 
-enum { SB_BLOCK_BITS = 3 }; /* of a key: the cells of a block */
+/* The last bits of a key: the cell within its block. A group is the content of a block: block_of in search/around.c has
+   the same cells. Blocks of particles (SB_BLOCK) are something else. */
+enum { SB_CELLS_BITS = 3 };
 
 /* A particle that another domain takes over. */
 typedef struct sb_migrant {
@@ -29,11 +31,11 @@ typedef struct sb_halo_plan {
 typedef struct sb_domains {
     sb_ranks *ranks;
     uint64_t *cut;  /* ranks + 1: rank r has the keys [cut[r], cut[r + 1]) */
-    uint64_t *next; /* the same from the next step on, if `recut` */
+    uint64_t *next; /* the same from the next sort on, if `recut` */
     bool recut;
     uint64_t searches; /* for neighbours, so far */
     uint64_t cuts;     /* made anew, so far */
-    double imbalance;  /* largest load over the mean, less 1, when it was last looked at */
+    double imbalance;  /* largest load over the mean, less 1, when it was last counted */
     sb_halo_plan plan;
 
     /* buffers */
@@ -84,7 +86,8 @@ typedef sb_record sb_place_of(const sb_sim *sim, const void *set, size_t i);
 /* Cuts the keys so that each domain has about the same number of the set's particles; all ranks call it with the same
    set. SB_FAILED without memory. */
 sb_status sb_domains_cut(sb_sim *sim, sb_place_of *place, const void *set, size_t count, sb_error *error);
-/* Weighs the domains by their pairs of neighbours and, if one has too many, cuts them anew from the next sort on. */
+/* Once in several searches weighs the domains by their pairs of neighbours and, if one has too many, cuts them anew
+   from the next sort on. found: whether this domain's search has succeeded. */
 void sb_domains_balance(sb_sim *sim, bool found);
 
 /* migrate.c */

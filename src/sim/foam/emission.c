@@ -63,12 +63,13 @@ static numbers number(sb_sim *sim, double factor, size_t room, size_t *sizes)
 {
     const size_t n = sim->state.n;
     uint32_t *emission = sim->work.emission;
-#pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < n; i++)
-        if (emission[i] > 0)
-            emission[i] = (uint32_t)(factor * emission[i] / SB_FOAM_ONE + random_of(sim, sim->state.id[i], WHETHER));
-    uint64_t own = 0;
-    for (size_t i = 0; i < n; i++) own += emission[i];
+    uint64_t own = 0; /* a whole number, as in thinning */
+#pragma omp parallel for schedule(static) reduction(+ : own)
+    for (size_t i = 0; i < n; i++) {
+        if (emission[i] == 0) continue;
+        emission[i] = (uint32_t)(factor * emission[i] / SB_FOAM_ONE + random_of(sim, sim->state.id[i], WHETHER));
+        own += emission[i];
+    }
     const numbers found = numbers_of(sim, own, room, sizes);
     size_t sum = found.begin;
     for (size_t i = 0; i < n; i++) {

@@ -73,14 +73,15 @@ typedef struct entry {
     float correction;
 } entry;
 
+static const char INCOMING[] = "particles that come in from the sea";
+
 /* Appends the particle, in the domain that has the place. */
 static sb_status append(sb_sim *sim, sb_record at, sb_f4 velocity, float correction, sb_error *error)
 {
     sb_state *state = &sim->state;
     const size_t i = state->n;
     if (sim->domains && !sb_domains_owns(sim->domains, sb_space_key(&sim->space, at))) return SB_OK;
-    if (i + 1 >= (size_t)1 << SB_INDEX_BITS || make_room(sim, i + 1) != 0)
-        return sb_fail_memory(error, "particles that come in from the sea");
+    if (make_room(sim, i + 1) != 0) return sb_fail_memory(error, INCOMING);
     state->position[i] = at;
     state->velocity[i] = velocity;
     state->id[i] = state->next_id;
@@ -96,12 +97,14 @@ static sb_status let_in(sb_sim *sim, const entry *e, sb_error *error)
     if (state->next_id == UINT32_MAX)
         return sb_fail(error, SB_FAILED, "step %llu: 2^32 particles have come in: no numbers are left",
                        (unsigned long long)state->step + 1);
+    if (sim->work.everywhere + 1 >= (uint64_t)1 << SB_INDEX_BITS) return sb_fail_memory(error, INCOMING);
     const double *v = e->given->velocity, mass = (double)sim->constant.mass;
     const sb_record at = sb_space_record(&sim->space, e->at);
     const sb_f4 has = {(float)v[0], (float)v[1], (float)v[2], (float)e->given->pressure};
     const sb_status status = append(sim, at, has, e->correction, error);
     if (status != SB_OK) return status;
     state->next_id++;
+    sim->work.everywhere++;
     const double square = sb_ledger_work((sb_f4){0}, has, has, has);
     const double base = sim->model->min.z - sim->space.origin.z;
     const double height = at[2] * sim->space.quantum - base;
@@ -283,7 +286,8 @@ sb_status sb_stage_inflow(sb_sim *sim, sb_error *error)
 {
     if (!sim->policy->runs) return SB_OK;
     sb_status status = sb_strip_measure(sim, error);
-    if (status == SB_OK) status = sim->exchange->agree(sim, sb_strip_advance_grid(sim, error), error);
+    if (status == SB_OK) status = sb_strip_advance_grid(sim, error);
+    status = sim->exchange->agree(sim, status, error);
     for (size_t k = 0; k < sim->strip->count && status == SB_OK; k++) {
         sb_strip_side *s = &sim->strip->side[k];
         count_leaving(sim, s);

@@ -222,7 +222,7 @@ static void take_moving(sb_sim *sim, sb_archive_in *in)
 
 sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
 {
-    sb_status status = sb_archive_enter(in, SECTION, error);
+    sb_status status = sim->exchange->agree(sim, sb_archive_enter(in, SECTION, error), error);
     if (status != SB_OK) return status;
     take_progress(in, &sim->state, &sim->report);
     take_settle(in, sim->scene, &sim->state.settle);
@@ -248,12 +248,11 @@ sb_status sb_sim_load(sb_sim *sim, sb_archive_in *in, sb_error *error)
                           (unsigned long long)expected);
     if (status == SB_OK) status = sb_archive_leave(in, error);
     if (status == SB_OK) status = sb_walls_restore(sim, error);
-    status = sim->exchange->agree(sim, status, error);
     /* The lists and cells belong to the old particles: there are none until the next step. */
     sim->work.lists_current = sim->work.virial_known = false;
     sb_report_update(sim);
     sim->groups.count = 0;
     if (sb_cells_build(&sim->cells, sim->state.position, 0, sim->space.shift) != 0 && status == SB_OK)
         status = sb_fail_memory(error, "cells");
-    return status;
+    return sim->exchange->agree(sim, status, error);
 }

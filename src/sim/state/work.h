@@ -79,7 +79,7 @@ typedef struct sb_work {
 
     float *strain_xx, *stress_xx;
     sb_f4 *strain, *stress;
-    sb_cell_sum *cell_sum; /* by cell, then by cell of the ghosts (sim/terms/cell_mean.h) */
+    sb_cell_sum *cell_sum; /* by cell: owned, of the halo, of images (sim/terms/cell_mean.h) */
     size_t cell_sum_capacity;
     double *node; /* SB_TENSION_VALUES per node of a grid around the water; NULL without surface tension */
     size_t node_capacity;

@@ -1,9 +1,11 @@
 /* The symplectic update [S16, eqs. 17, 18]. */
+#include "sim/exchange/exchange.h"
 #include "sim/exchange/sums.h"
 #include "sim/step/ledger.h"
 #include "sim/step/motion.h"
 #include "sim/step/stages.h"
 
+#include <float.h>
 #include <math.h>
 
 /* Largest squared speed of the block (NaN if any speed is NaN), and its particle. */
@@ -103,6 +105,14 @@ static fastest faster(fastest a, fastest b)
     return a.square > b.square ? a : b;
 }
 
+/* A number by which domains compare the squares of their fastest: in the order of `faster`, and never NaN. */
+static double order_of(float square)
+{
+    return isnan(square) ? (double)INFINITY : fmin((double)square, DBL_MAX);
+}
+
+/* Of domains whose fastest particles are equally fast, the first has the failure's message, as its particles come first
+   without domains. */
 sb_status sb_stage_accelerate(sb_sim *sim, sb_error *error)
 {
     const size_t blocks = sb_blocks(sim);
@@ -115,9 +125,10 @@ sb_status sb_stage_accelerate(sb_sim *sim, sb_error *error)
 #pragma omp critical(sb_fastest)
         top = faster(top, own);
     }
-    if (!(top.square <= sim->constant.speed_limit * sim->constant.speed_limit))
-        return sb_sim_diverged(sim, top.particle, (sb_f4){sqrtf(top.square)}, error);
-    return SB_OK;
+    const double own = order_of(top.square), fastest_of_all = sim->exchange->largest(sim, own);
+    if (top.square <= sim->constant.speed_limit * sim->constant.speed_limit) return SB_OK;
+    if (own < fastest_of_all) return sb_fail(error, SB_FAILED, "%s", ""); /* another domain has the message */
+    return sb_sim_diverged(sim, top.particle, (sb_f4){sqrtf(top.square)}, error);
 }
 
 sb_status sb_stage_move(sb_sim *sim, sb_error *error)

@@ -115,12 +115,13 @@ static sb_status run_stages(sb_sim *sim, int halves, sb_error *error)
         if (!(stages[s].halves & halves)) continue;
         const double start = sb_clock();
         sb_work_enter(&sim->work, stages[s].phase);
-        status = sim->exchange->agree(sim, stages[s].run(sim, error), error);
+        sb_status own = stages[s].run(sim, error);
+#ifdef SB_DEBUG
+        if (own == SB_OK) own = check_finite(sim, stages[s].name, error);
+#endif
+        status = sim->exchange->agree(sim, own, error);
         time->seconds += sb_clock() - start;
         time->calls++;
-#ifdef SB_DEBUG
-        if (status == SB_OK) status = check_finite(sim, stages[s].name, error);
-#endif
     }
     sim->stage_count = count > sim->stage_count ? count : sim->stage_count;
     return status;

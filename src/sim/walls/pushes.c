@@ -1,6 +1,7 @@
 #include "sim/walls/pushes.h"
 
 #include "base/memory.h"
+#include "sim/exchange/exchange.h"
 
 #include <math.h>
 
@@ -92,18 +93,16 @@ void sb_pushes_destroy(sb_pushes *pushes)
     sb_free(pushes);
 }
 
-sb_status sb_sim_record_pushes(sb_sim *sim, const sb_push_place *places, size_t count, sb_error *error)
+/* NULL without memory. */
+static sb_pushes *create(const sb_sim *sim, const sb_push_place *places, size_t count)
 {
-    sb_pushes_destroy(sim->pushes);
-    sim->pushes = NULL;
-    if (count == 0) return SB_OK;
     sb_pushes *made = sb_alloc(1, sizeof *made);
-    if (!made) return sb_fail_memory(error, "forces on walls");
+    if (!made) return NULL;
     made->places = sb_alloc(count, sizeof *made->places);
     made->wanted = sb_alloc(sim->model->body_count, sizeof *made->wanted);
     if (!made->places || !made->wanted) {
         sb_pushes_destroy(made);
-        return sb_fail_memory(error, "forces on walls");
+        return NULL;
     }
     made->place_count = count;
     for (size_t p = 0; p < count; p++) {
@@ -112,8 +111,22 @@ sb_status sb_sim_record_pushes(sb_sim *sim, const sb_push_place *places, size_t 
     }
     made->period =
         sb_vec((double)sim->space.period[0] * sim->space.quantum, (double)sim->space.period[1] * sim->space.quantum, 0);
-    sim->pushes = made;
-    return SB_OK;
+    return made;
+}
+
+sb_status sb_sim_record_pushes(sb_sim *sim, const sb_push_place *places, size_t count, sb_error *error)
+{
+    sb_pushes_destroy(sim->pushes);
+    sim->pushes = NULL;
+    if (count == 0) return SB_OK;
+    sb_pushes *made = create(sim, places, count);
+    const sb_status own = made ? SB_OK : sb_fail_memory(error, "forces on walls");
+    const sb_status status = sim->exchange->agree(sim, own, error);
+    if (status == SB_OK)
+        sim->pushes = made;
+    else
+        sb_pushes_destroy(made);
+    return status;
 }
 
 const sb_wall_push *sb_sim_pushes(const sb_sim *sim, size_t *count)

@@ -28,6 +28,14 @@ void ranks_make(const ranks_case *c, ranks_made *made)
         fail_msg("%s: %s", c->name, error.text);
 }
 
+size_t ranks_places(const ranks_made *made, sb_push_place places[RANKS_BODIES_MAX])
+{
+    const size_t bodies = made->model.body_count;
+    assert_true(bodies <= RANKS_BODIES_MAX);
+    for (size_t b = 0; b < bodies; b++) places[b] = (sb_push_place){b, made->model.min, 0.5};
+    return bodies;
+}
+
 void ranks_free(ranks_made *made)
 {
     sb_model_free(&made->model);
@@ -98,11 +106,12 @@ static void run(sb_ranks *ranks, void *context)
     ranks_end *end = &j->end[sb_ranks_own(ranks)];
     sb_sim *sim = NULL;
     omp_set_num_threads(j->way->threads);
-    const sb_push_place place = {0, j->made->model.min, 0.5};
+    sb_push_place places[RANKS_BODIES_MAX];
+    const size_t place_count = ranks_places(j->made, places);
     const int steps = j->way->steps > 0 ? j->way->steps : j->what->steps;
     sb_status status = sb_sim_create(&j->made->scene, &j->made->model, ranks, &sim, &end->error);
     if (status == SB_OK) status = begin(j, sim, &end->error);
-    if (status == SB_OK) status = sb_sim_record_pushes(sim, &place, 1, &end->error);
+    if (status == SB_OK) status = sb_sim_record_pushes(sim, places, place_count, &end->error);
     for (int step = 0; step < steps && status == SB_OK; step++) status = sb_sim_step(sim, &end->error);
     if (status == SB_OK) show(sim, end, sb_ranks_own(ranks) == 0);
     sb_sim_destroy(sim);

@@ -5,14 +5,22 @@
 #include "base/ranks_threads.h"
 #include "sim/sim.h"
 
-enum { RANKS_KEYS_MAX = 10, RANKS_TEST_MAX = 8, RANKS_SAMPLES_MAX = 4096 };
+enum { RANKS_KEYS_MAX = 10, RANKS_TEST_MAX = 8, RANKS_SAMPLES_MAX = 4096, RANKS_BODIES_MAX = 16 };
+
+/* What a run has, so that a comparison of it tests something. */
+typedef enum ranks_has { RANKS_FOAM = 1, RANKS_DEPARTURES = 2, RANKS_PUSHES = 4, RANKS_INFLOW = 8 } ranks_has;
 
 /* A scene: the file, keys over it ("path=value"), and the steps after settling. */
 typedef struct ranks_case {
     const char *name, *file;
     int steps;
     const char *set[RANKS_KEYS_MAX];
+    unsigned has;   /* flags */
+    bool disturbed; /* it is also run with delayed messages and two threads per rank */
 } ranks_case;
+
+/* ranks_cases.c: the first scene, and one for each kind of scene; ends with one without name. */
+extern const ranks_case ranks_column, ranks_cases[];
 
 typedef struct ranks_made {
     sb_scene scene;
@@ -22,6 +30,8 @@ typedef struct ranks_made {
 /* Fails the test if the scene cannot be made. */
 void ranks_make(const ranks_case *c, ranks_made *made);
 void ranks_free(ranks_made *made);
+/* Where the forces on walls are recorded: on each body near a corner of the domain. Returns the number. */
+size_t ranks_places(const ranks_made *made, sb_push_place places[RANKS_BODIES_MAX]);
 
 /* How to run it: ranks 1 is alone. `threads` each. disturb: seed of delays; 0: none. from: a saved state to begin with;
    NULL: the start. */

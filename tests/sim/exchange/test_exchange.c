@@ -1,5 +1,5 @@
-/* All that crosses the edge of a domain goes through the exchange: another implementation sees every refresh and sum,
-   maximum and flag, and determines its result. Alone, ghosts have the values of their originals. */
+/* All that crosses the edge of a domain goes through the exchange: another implementation sees every refresh, sum,
+   count, maximum and status, and determines its result. Alone, ghosts have the values of their originals. */
 #include "base/memory.h"
 #include "check.h"
 #include "sim/exchange/exchange.h"
