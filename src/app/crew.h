@@ -9,6 +9,9 @@
 
 struct sb_run_options; /* app/run.h */
 
+/* From now on signals that ask for a stop are only noted: sb_stop_watch, and SIGUSR1 of a starter such as mpirun. */
+void sb_crew_watch(void);
+
 /* The checks and samples of the scene, and the model. */
 sb_status sb_crew_build(run *r, sb_error *error);
 /* The simulation; its first step is checked unless the run is resumed. */
@@ -36,7 +39,7 @@ sb_status sb_crew_load(run *r, bool settling, uint64_t step, sb_archive_in *in, 
 /* Between two steps: stops all ranks at the same step if one of them was told to. Call it before sb_stop_signal is
    read. */
 void sb_crew_heed(run *r);
-/* While rank 0 waits on purpose, as in a pause: tells the others, whose deadline begins again. */
+/* While rank 0 waits on purpose, as in a pause: lets the others tell the signals that they have received. */
 void sb_crew_stay(run *r);
 
 /* Logs the number of ranks and their hosts, as the event "ranks". Nothing on one rank. */

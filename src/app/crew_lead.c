@@ -3,6 +3,7 @@
 #include "app/crew_orders.h"
 #include "app/run.h"
 #include "base/stop.h"
+#include "mpi/starter.h"
 #include "mpi/world.h"
 
 /* ---- orders ---- */
@@ -33,6 +34,12 @@ sb_status sb_crew_next(run *r, order *given, sb_error *error)
     }
     sb_world_await(r->crew.ranks, given, sizeof *given);
     return act(r, given, error);
+}
+
+void sb_crew_watch(void)
+{
+    sb_stop_watch();
+    if (sb_world_started()) sb_stop_watch_forwarded();
 }
 
 /* ---- rank 0 ---- */
@@ -134,7 +141,7 @@ void sb_crew_follow(const sb_scene *scene, const char *directory, const sb_run_o
     run r = {.resolved = *scene, .directory = directory, .lock = -1, .crew = {.ranks = options->ranks}};
     order given = {0};
     r.scene = &r.resolved;
-    sb_stop_watch();
+    sb_crew_watch();
     sb_stop_defer(true);
     (void)sb_checkpoint_begin(&r, NULL); /* rank 0 does the same, and says why if it fails */
     while (given.what != ORDER_DISMISS) (void)sb_crew_next(&r, &given, NULL);

@@ -213,7 +213,7 @@ sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_opti
     r.crew.ranks = options->ranks;
     sb_error local = {0};
     sb_progress_begin(&r.progress, options->quiet ? NULL : stdout, scene->duration);
-    sb_stop_watch();
+    sb_crew_watch();
     sb_status status = sb_run_start(&r, options, &local);
     if (status == SB_OK) status = advance(&r, &local);
     save_at_end(&r, status, &local);
