@@ -170,7 +170,7 @@ static sb_status act_release(run *r, const order *given, sb_error *error)
 
 const crew_row sb_crew_rows[ORDERS] = {
     [ORDER_BUILD] = {act_build, SAME},         [ORDER_CREATE] = {act_create, AGREED},
-    [ORDER_MEASURE] = {act_measure, AGREED},   [ORDER_SETTLE] = {act_settle, NOTED},
+    [ORDER_MEASURE] = {act_measure, NOTED},    [ORDER_SETTLE] = {act_settle, NOTED},
     [ORDER_GO_ON] = {act_nothing, SAME},       [ORDER_STEP] = {act_step, NOTED},
     [ORDER_OBSERVE] = {act_observe, NOTED},    [ORDER_PRESSURES] = {act_pressures, SAME},
     [ORDER_SNAPSHOT] = {act_snapshot, SAME},   [ORDER_HASH] = {act_hash, SAME},
