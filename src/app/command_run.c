@@ -6,6 +6,7 @@
 #include "app/run.h"
 #include "base/file.h"
 #include "base/stop.h"
+#include "mpi/starter.h"
 #include "mpi/world.h"
 
 #include <signal.h>
@@ -127,13 +128,13 @@ int sb_command_run(int count, char **arguments)
     how.thread_remains = &thread_remains;
     sb_status status = sb_options_parse(count, arguments, accepted, "scene", &options, &error);
     if (status == SB_OK && options.help) {
-        if (sb_crew_speaks(NULL)) fputs(help, stdout);
+        if (sb_world_started_as() == 0) fputs(help, stdout);
         return 0;
     }
     if (status == SB_OK) status = check_options(&options, &error);
-    if (status == SB_OK) status = sb_crew_join(&options, &ranks, &error);
+    status = sb_crew_join(&options, status, &ranks, &error);
     if (status == SB_OK) status = run_scene(&options, ranks, &scene, &how, &error);
-    if (status != SB_OK && sb_crew_speaks(ranks)) fprintf(stderr, "shorebreak: %s\n", error.text);
+    if (status != SB_OK && sb_ranks_own(ranks) == 0) fprintf(stderr, "shorebreak: %s\n", error.text);
     sb_world_leave(ranks);
     if (thread_remains) { /* a library's exit handler could wait for that thread, or free memory that it uses */
         fflush(NULL);

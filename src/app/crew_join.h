@@ -5,12 +5,10 @@
 #include "app/options.h"
 #include "base/ranks.h"
 
-/* Joins the other processes. *ranks: NULL if this one is alone. From now on this process ends with one line and exit
-   status 2 when another rank ends or is not heard of. */
-sb_status sb_crew_join(const sb_options *options, sb_ranks **ranks, sb_error *error);
-
-/* Whether this process prints: all but rank 0 are silent. ranks NULL: not joined yet. */
-bool sb_crew_speaks(const sb_ranks *ranks);
+/* The command line was read with `own` (and *error). Joins the other processes, also when this one refuses its command
+   line: rank 0 then says why. *ranks: NULL if this one is alone or could not join; it then speaks for itself. From now
+   on this process ends with one line and exit status 2 when another rank ends or is not heard of. */
+sb_status sb_crew_join(const sb_options *options, sb_status own, sb_ranks **ranks, sb_error *error);
 
 /* The scene was read with `own` (and *error). Checks that all ranks have read the same scene with the same options, and
    are of the same build on processors with the same instructions; of the latter rank 0 only warns with --mixed. The

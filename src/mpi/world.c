@@ -126,7 +126,13 @@ sb_status sb_world_join(double deadline, sb_world_fatal *fatal, sb_ranks **ranks
     w->fatal = fatal;
     set_up(w);
     sb_status status = SB_OK;
-    if (w->ranks.count > SB_RANKS_MAX)
+    const int started = sb_world_started_count();
+    if (w->ranks.count == 1 && started > 1)
+        status = sb_fail(error, SB_FAILED,
+                         "started as one of %d processes, but MPI finds only this one: expected the starter of the MPI "
+                         "that this program was built with, as mpirun of Open MPI or srun --mpi=pmix",
+                         started);
+    else if (w->ranks.count > SB_RANKS_MAX)
         status = sb_fail(error, SB_BAD_INPUT, "%d ranks, expected at most %d", w->ranks.count, SB_RANKS_MAX);
     else if (w->ranks.count > 1)
         status = sb_world_meet(w, error);

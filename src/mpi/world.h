@@ -15,7 +15,7 @@ typedef void sb_world_fatal(const char *line);
 
 /* Joins the other processes. *ranks: NULL if this process is alone; no MPI is called without a starter. deadline: s
    that this rank waits for another one within an order before the run ends. SB_FAILED if the system refuses it, or if
-   there are several processes and no MPI in this build. */
+   the starter tells of several processes and there is no MPI in this build, or MPI finds only this one. */
 sb_status sb_world_join(double deadline, sb_world_fatal *fatal, sb_ranks **ranks, sb_error *error);
 /* Ends MPI and frees *ranks. All ranks call it at their end; it waits for them without using the processor. NULL has no
    effect. */
