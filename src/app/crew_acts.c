@@ -24,15 +24,20 @@ static sb_status compare_models(const run *r, sb_error *error)
     return SB_OK;
 }
 
-/* Rank 0 estimates the memory, for all ranks of its host, which share it. With more hosts it is not known. */
+/* Rank 0 estimates the memory, for all ranks of its host, which share it. With more hosts it is not known. It compares
+   what is available when all ranks have the model. */
 static sb_status act_build(run *r, const order *given, sb_error *error)
 {
-    const bool estimates = !sb_crew_several(r) || (sb_crew_leads(r) && sb_world_hosts(r->crew.ranks) == 1);
+    const bool several = sb_crew_several(r);
+    const bool estimates = !several || (sb_crew_leads(r) && sb_world_hosts(r->crew.ranks) == 1);
     (void)given;
+    if (several && estimates) sb_room_share(r->crew.ranks->count);
     sb_status status = sb_fit_check(r->scene, error);
     if (status == SB_OK) status = sb_model_build_for(r->scene, estimates ? sb_room_needed : NULL, &r->model, error);
-    if (status == SB_OK && estimates) status = sb_room_check(r->scene, &r->model, error);
-    if (!sb_crew_several(r)) return status;
+    if (several) status = sb_world_agree(r->crew.ranks, status, error);
+    if (status != SB_OK) return status;
+    if (estimates) status = sb_room_check(r->scene, &r->model, error);
+    if (!several) return status;
     status = sb_world_agree(r->crew.ranks, status, error);
     return status == SB_OK ? compare_models(r, error) : status;
 }
