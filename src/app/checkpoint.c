@@ -1,7 +1,7 @@
 #include "app/checkpoint.h"
 
 #include "app/checkpoint_parts.h"
-#include "app/crew.h"
+#include "app/cluster.h"
 #include "app/grid_frame.h"
 #include "app/missed.h"
 #include "app/run_parts.h"
@@ -253,7 +253,7 @@ static sb_status write_now(run *r, char path[SB_PATH_MAX], size_t *bytes, sb_err
     if (status != SB_OK) return status;
     put_origin(r, &out);
     put_run(r, &tables, &out);
-    sb_crew_save(r, false, &out);
+    sb_cluster_save(r, false, &out);
     status = sb_archive_close(&out, error);
     *bytes = out.used;
     return status;
@@ -295,7 +295,7 @@ static sb_status write_settling(run *r, size_t *bytes, sb_error *error)
     put_origin(r, &out);
     sb_archive_section(&out, SB_CHECKPOINT_SETTLING);
     sb_spent_save(r, &out);
-    sb_crew_save(r, true, &out);
+    sb_cluster_save(r, true, &out);
     status = sb_archive_close(&out, error);
     *bytes = out.used;
     return status;

@@ -1,7 +1,7 @@
 /* Resuming from the newest checkpoint that is undamaged, of this program and build, and of this scene. */
 #include "app/checkpoint.h"
 #include "app/checkpoint_parts.h"
-#include "app/crew.h"
+#include "app/cluster.h"
 #include "app/grid_frame.h"
 #include "app/missed.h"
 #include "app/run_parts.h"
@@ -112,7 +112,7 @@ static sb_status load(run *r, uint64_t step, const char *path, sb_error *error)
     sb_archive_in in = {0};
     sb_status status = sb_archive_open(&in, path, SB_CHECKPOINT_KIND, SB_CHECKPOINT_FORMAT, error);
     if (status == SB_OK) status = check_origin(r, &in, error);
-    if (status == SB_OK) status = sb_crew_load(r, false, step, &in, error);
+    if (status == SB_OK) status = sb_cluster_load(r, false, step, &in, error);
     if (status == SB_OK) status = take_run(r, &in, error);
     sb_archive_in_free(&in);
     return status;
@@ -129,7 +129,7 @@ static sb_status load_settling(run *r, const char *path, sb_error *error)
         sb_spent_load(r, &in);
         status = sb_archive_leave(&in, error);
     }
-    if (status == SB_OK) status = sb_crew_load(r, true, 0, &in, error);
+    if (status == SB_OK) status = sb_cluster_load(r, true, 0, &in, error);
     sb_archive_in_free(&in);
     if (status == SB_OK && !sb_sim_settling(r->sim, &done))
         status = sb_fail(error, SB_BAD_INPUT, "%.500s: its settling has ended, expected a state during settling", path);

@@ -1,11 +1,12 @@
+#include "app/cluster.h"
+#include "app/cluster_join.h"
 #include "app/commands.h"
-#include "app/crew.h"
-#include "app/crew_join.h"
 #include "app/grid_water.h"
 #include "app/options.h"
 #include "app/run.h"
 #include "base/file.h"
 #include "base/stop.h"
+#include "mpi/starter.h"
 #include "mpi/world.h"
 
 #include <signal.h>
@@ -91,7 +92,7 @@ static sb_status run_scene(const sb_options *options, sb_ranks *ranks, sb_scene 
 {
     char out[SB_PATH_MAX];
     sb_status status = sb_options_scene(options, options->positional, scene, error);
-    status = sb_crew_compare(ranks, options, status, error);
+    status = sb_cluster_compare(ranks, options, status, error);
     if (status == SB_OK) status = check_scene(options, scene, ranks, error);
     if (status != SB_OK) return status;
     if (options->out)
@@ -107,7 +108,7 @@ static sb_status run_scene(const sb_options *options, sb_ranks *ranks, sb_scene 
     how->live_address = options->live_address;
     how->ranks = ranks;
     if (sb_ranks_own(ranks) != 0) {
-        sb_crew_follow(scene, out, how);
+        sb_cluster_follow(scene, out, how);
         return SB_OK;
     }
     return (sb_scene_grid_alone(scene) ? sb_grid_run : sb_run)(scene, out, how, error);
@@ -127,13 +128,13 @@ int sb_command_run(int count, char **arguments)
     how.thread_remains = &thread_remains;
     sb_status status = sb_options_parse(count, arguments, accepted, "scene", &options, &error);
     if (status == SB_OK && options.help) {
-        if (sb_crew_speaks(NULL)) fputs(help, stdout);
+        if (sb_world_started_as() == 0) fputs(help, stdout);
         return 0;
     }
     if (status == SB_OK) status = check_options(&options, &error);
-    if (status == SB_OK) status = sb_crew_join(&options, &ranks, &error);
+    status = sb_cluster_join(&options, status, &ranks, &error);
     if (status == SB_OK) status = run_scene(&options, ranks, &scene, &how, &error);
-    if (status != SB_OK && sb_crew_speaks(ranks)) fprintf(stderr, "shorebreak: %s\n", error.text);
+    if (status != SB_OK && sb_ranks_own(ranks) == 0) fprintf(stderr, "shorebreak: %s\n", error.text);
     sb_world_leave(ranks);
     if (thread_remains) { /* a library's exit handler could wait for that thread, or free memory that it uses */
         fflush(NULL);

@@ -1,4 +1,5 @@
 /* A run of the depth-averaged model from scene to summary. */
+#include "app/cluster.h"
 #include "app/grid_record.h"
 #include "app/grid_report.h"
 #include "app/lock.h"
@@ -184,7 +185,7 @@ sb_status sb_grid_run(const sb_scene *scene, const char *directory, const sb_run
     sb_error local = {0};
     g.r.scene = &g.r.resolved;
     sb_progress_begin(&g.r.progress, options->quiet ? NULL : stdout, scene->duration);
-    sb_stop_watch();
+    sb_cluster_watch();
     sb_status status = start(&g, options, &local);
     if (status == SB_OK) status = advance(&g, &local);
     finish(&g, &status, &local);

@@ -99,6 +99,17 @@ static sb_status take_smooth(sb_options *options, const char *value, sb_error *e
     return SB_OK;
 }
 
+/* A refused deadline is not used: the default counts while the other ranks are told. */
+static sb_status take_deadline(const char *value, double *deadline, sb_error *error)
+{
+    char *end;
+    const double seconds = strtod(value, &end);
+    if (end == value || *end || !(seconds >= 1 && seconds <= 1e6))
+        return sb_fail(error, SB_BAD_INPUT, "--rank-deadline %.100s: expected seconds from 1 to 1e6", value);
+    *deadline = seconds;
+    return SB_OK;
+}
+
 static sb_status take(sb_options *options, unsigned bit, const char *value, sb_error *error)
 {
     char *end = NULL, duration[64];
@@ -147,10 +158,7 @@ static sb_status take(sb_options *options, unsigned bit, const char *value, sb_e
         options->mixed = true;
         break;
     case SB_OPT_RANK_DEADLINE:
-        options->rank_deadline = strtod(value, &end);
-        if (end == value || *end || !(options->rank_deadline >= 1 && options->rank_deadline <= 1e6))
-            return sb_fail(error, SB_BAD_INPUT, "--rank-deadline %.100s: expected seconds from 1 to 1e6", value);
-        break;
+        return take_deadline(value, &options->rank_deadline, error);
     case SB_OPT_OTHER_BUILD:
         options->other_build = true;
         break;

@@ -1,6 +1,6 @@
 #include "app/picture_now.h"
 
-#include "app/crew.h"
+#include "app/cluster.h"
 #include "app/grid_picture.h"
 #include "app/run_parts.h"
 #include "base/memory.h"
@@ -112,8 +112,8 @@ sb_status sb_picture_now(run *r, const sb_command *command, sb_error *error)
     if (status != SB_OK) return status;
     p->command = *command;
     p->step = sb_sim_report(r->sim)->step;
-    sb_crew_find_pressures(r);
-    sb_frame *frame = sb_crew_snapshot(r);
+    sb_cluster_find_pressures(r);
+    sb_frame *frame = sb_cluster_snapshot(r);
     if (!frame) return sb_fail_memory(error, "a frame");
     frame->index = r->frames;
     sb_measure_fill_frame(r->measure, frame);

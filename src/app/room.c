@@ -7,23 +7,30 @@
 #include <math.h>
 
 /* Memory measured with tools/bench: of the program without particles and of its graphics library; per fluid particle,
-   per neighbour of a fluid particle, per boundary particle, and per ghost particle. */
+   per neighbour of a fluid particle, and per ghost particle; of numerics.stress_memory and of surface tension. */
 static const double IMPULSE_BYTES = 9 * 8 / 1024.0; /* per particle and body: nine sums per block of 1024 */
-static const double PROGRAM_BYTES = 1e7, GRAPHICS_BYTES = 5e7, FLUID_BYTES = 166, PAIR_BYTES = 4.3, WALL_BYTES = 48,
-                    GHOST_BYTES = 90, STEADY_BYTES = 24;
+static const double PROGRAM_BYTES = 1e7, GRAPHICS_BYTES = 5e7, FLUID_BYTES = 166, PAIR_BYTES = 4.3, GHOST_BYTES = 90,
+                    STEADY_BYTES = 24, TENSION_BYTES = 16;
 
 /* Per pixel of a picture: two layers of water at 16 bytes, colour, depth, the pixels that are read back and those that
    are written. Per node of the two grids in which pictures find the surface: nodes are 1.5 spacings apart, or farther
    where there would be too many; the arrays grow by doubling. Per cell of a map. */
 static const double PIXEL_BYTES = 47, NODE_BYTES = 16, NODE_SPACINGS = 1.5, NODES_MAX = 2.5e7, MAP_CELL_BYTES = 36;
 
-/* The part of it that the model has allocated already. */
+/* The part of FLUID_BYTES that is the model, and the model per boundary particle. */
 static const double MODEL_FLUID_BYTES = 56, MODEL_WALL_BYTES = 48;
 
 /* Per particle of a frame; the largest size and number of the frames that may wait; per particle of the stream's copy.
  */
 static const double FRAME_BYTES = 32, DENSITY_ERROR_BYTES = 4, WAITING_BYTES = 256e6, STREAM_BYTES = 12;
 enum { MOST_WAITING = 3 };
+
+static int sharing = 1;
+
+void sb_room_share(int ranks)
+{
+    sharing = ranks;
+}
 
 size_t sb_room_waiting(size_t fluid_count)
 {
@@ -90,14 +97,20 @@ static double count_drawn(const sb_scene *scene, const sb_model *model)
     return SB_GRID_PICTURE_LAYERS * fmax(columns, 0);
 }
 
-/* Foam: arrays that grow by doubling, and the frames. */
-static double foam_bytes(const sb_scene *scene, const sb_model *model)
+/* Foam: arrays that grow by doubling. */
+static double foam_bytes(const sb_scene *scene)
 {
-    enum { PARTICLE = 48, WORDS = 16, MARK = 28, FRAME = 33, FLUID = 20, PIXEL = 36 };
+    enum { PARTICLE = 48, WORDS = 16, MARK = 28 };
+    return scene->foam.enabled ? 2 * (PARTICLE + WORDS + MARK) * (double)scene->foam.most : 0;
+}
+
+/* What foam needs in frames, pictures and the water. */
+static double foam_bytes_beside(const sb_scene *scene, const sb_model *model)
+{
+    enum { FRAME = 33, FLUID = 20, PIXEL = 36 };
     if (!scene->foam.enabled) return 0;
     return PIXEL * (double)scene->render.width * scene->render.height +
-           (double)scene->foam.most * (2 * (PARTICLE + WORDS + MARK) + FRAME * count_frames(scene, model)) +
-           FLUID * (double)model->fluid_count;
+           FRAME * (double)scene->foam.most * count_frames(scene, model) + FLUID * (double)model->fluid_count;
 }
 
 static double map_bytes(const sb_scene *scene)
@@ -108,10 +121,10 @@ static double map_bytes(const sb_scene *scene)
     return MAP_CELL_BYTES * ceil((map->x_max - map->x_min) / map->cell) * rows;
 }
 
-/* Of surface tension: per particle, and per node of the grid around the water, two nodes per support radius. */
-static double tension_bytes(const sb_scene *scene, const sb_model *model)
+/* Of surface tension: per node of the grid around the water, two nodes per support radius. */
+static double node_bytes(const sb_scene *scene, const sb_model *model)
 {
-    enum { EACH_BYTES = 16, EACH_NODE_BYTES = 88, MARGIN = 10 };
+    enum { EACH_NODE_BYTES = 88, MARGIN = 10 };
     if (!(scene->fluid.surface_tension > 0) || !model->fluid_position) return 0;
     sb_vec3 low = model->fluid_position[0], high = low;
     for (size_t i = 1; i < model->fluid_count; i++) {
@@ -121,30 +134,43 @@ static double tension_bytes(const sb_scene *scene, const sb_model *model)
     const double width = 0.5 * scene->numerics.support * scene->resolution;
     const sb_vec3 size = sb_sub(high, low);
     const double across = scene->dimensions == 2 ? 1 : size.y / width + MARGIN;
-    return EACH_BYTES * (double)model->fluid_count +
-           EACH_NODE_BYTES * (size.x / width + MARGIN) * across * (size.z / width + MARGIN);
+    return EACH_NODE_BYTES * (size.x / width + MARGIN) * across * (size.z / width + MARGIN);
+}
+
+/* The model, as the program itself. */
+static double model_bytes(const sb_model *model)
+{
+    return (double)model->fluid_count * MODEL_FLUID_BYTES + (double)model->wall_count * MODEL_WALL_BYTES;
+}
+
+/* What each rank of a run holds whole, however many there are. */
+static double whole_bytes(const sb_scene *scene, const sb_model *model)
+{
+    return PROGRAM_BYTES + model_bytes(model) + map_bytes(scene) + foam_bytes(scene) + node_bytes(scene, model) +
+           (sb_scene_nested(scene) ? sb_grid_bytes(scene) : 0);
 }
 
 double sb_room_needed(const sb_scene *scene, const sb_model *model)
 {
     const double frame = FRAME_BYTES + (sb_scene_shows_density_error(scene) ? DENSITY_ERROR_BYTES : 0);
     const bool steady = scene->numerics.stress_correction > 0 && scene->numerics.stress_memory > 0;
-    const double fluid = FLUID_BYTES + (steady ? STEADY_BYTES : 0) + PAIR_BYTES * count_neighbours(scene) +
-                         frame * count_frames(scene, model) + (scene->stream.enabled ? STREAM_BYTES : 0);
-    return PROGRAM_BYTES + picture_bytes(scene, model) + map_bytes(scene) + foam_bytes(scene, model) +
+    const bool tense = scene->fluid.surface_tension > 0 && model->fluid_position;
+    const double fluid = FLUID_BYTES - MODEL_FLUID_BYTES + (tense ? TENSION_BYTES : 0) + (steady ? STEADY_BYTES : 0) +
+                         PAIR_BYTES * count_neighbours(scene) + frame * count_frames(scene, model) +
+                         (scene->stream.enabled ? STREAM_BYTES : 0);
+    return sharing * whole_bytes(scene, model) + picture_bytes(scene, model) + foam_bytes_beside(scene, model) +
            (double)model->fluid_count * (fluid + IMPULSE_BYTES * (double)model->body_count) +
-           (double)model->wall_count * WALL_BYTES + sb_room_ghosts(scene, model) * GHOST_BYTES +
-           (sb_scene_nested(scene) ? sb_grid_bytes(scene) : 0) + tension_bytes(scene, model) +
-           FRAME_BYTES * count_drawn(scene, model) * (MOST_WAITING + 3);
+           sb_room_ghosts(scene, model) * GHOST_BYTES + FRAME_BYTES * count_drawn(scene, model) * (MOST_WAITING + 3);
 }
 
 sb_status sb_room_check(const sb_scene *scene, const sb_model *model, sb_error *error)
 {
     const double needed = sb_room_needed(scene, model), there = (double)sb_memory_available();
-    const double held = (double)model->fluid_count * MODEL_FLUID_BYTES + (double)model->wall_count * MODEL_WALL_BYTES;
+    const double held = sharing * model_bytes(model);
     if (!(there > 0) || needed <= (1 - SB_MEMORY_SPARE) * (held + there)) return SB_OK;
     return sb_fail(error, SB_FAILED,
                    "needs about %.3g GB of memory for %zu fluid and %zu boundary particles, and %.3g GB are available, "
-                   "of which a fifth is left free: expected a coarser resolution",
-                   needed / 1e9, model->fluid_count, model->wall_count, (held + there) / 1e9);
+                   "of which a fifth is left free: expected a coarser resolution%s",
+                   needed / 1e9, model->fluid_count, model->wall_count, (held + there) / 1e9,
+                   sharing > 1 ? " or fewer ranks" : "");
 }

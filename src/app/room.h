@@ -14,11 +14,14 @@ size_t sb_room_waiting(size_t fluid_count);
 /* Bytes that the graphics library uses before the first picture. */
 size_t sb_room_graphics(void);
 
-/* Approximate peak memory of a run with the scene's outputs, bytes. */
+/* So many ranks of the run share this host's memory; 1 until it is called. */
+void sb_room_share(int ranks);
+
+/* Approximate peak memory of a run with the scene's outputs, bytes: of all ranks of this host. */
 double sb_room_needed(const sb_scene *scene, const sb_model *model);
 
 /* SB_FAILED, with both figures, when a run of this model needs more memory than is available. The model itself is in
-   memory already. SB_OK when the system does not report how much is available. */
+   memory already, in each rank of this host. SB_OK when the system does not report how much is available. */
 sb_status sb_room_check(const sb_scene *scene, const sb_model *model, sb_error *error);
 
 #endif

@@ -1,7 +1,7 @@
 #include "app/run.h"
 
 #include "app/checkpoint.h"
-#include "app/crew.h"
+#include "app/cluster.h"
 #include "app/grid_frame.h"
 #include "app/grid_picture.h"
 #include "app/missed.h"
@@ -21,7 +21,7 @@ enum { LOG_STEPS = 100 }; /* steps between the periodic lines of the log */
 
 static sb_frame *make_frame(run *r, sb_error *error)
 {
-    sb_frame *frame = sb_crew_snapshot(r);
+    sb_frame *frame = sb_cluster_snapshot(r);
     if (!frame) {
         sb_fail_memory(error, "a frame");
         return NULL;
@@ -74,7 +74,7 @@ static sb_status feed(run *r, sb_error *error)
         others |= c != PICTURES && sb_consumer_due(&r->consumers[c], time);
     }
     if (!due) return SB_OK;
-    sb_crew_find_pressures(r);
+    sb_cluster_find_pressures(r);
     r->frames++;
     sb_status status = feed_pictures(r, error);
     if (status != SB_OK || !others) return status;
@@ -106,7 +106,7 @@ static void report_departures(run *r)
 
 static sb_status one_step(run *r, sb_error *error)
 {
-    sb_status status = sb_crew_step(r, error);
+    sb_status status = sb_cluster_step(r, error);
     if (status != SB_OK) return status;
     const sb_step_report *report = sb_sim_report(r->sim);
     r->iterations += (uint64_t)report->iterations;
@@ -116,7 +116,7 @@ static sb_status one_step(run *r, sb_error *error)
     r->particle_steps += (double)report->fluid_count;
     r->capped += report->capped;
     report_departures(r);
-    status = sb_crew_observe(r, error);
+    status = sb_cluster_observe(r, error);
     if (status == SB_OK) status = sb_csv_write(r->csv, sb_measure_latest(r->measure), error);
     if (status == SB_OK) status = sb_insets_add(&r->pictures.insets, sb_measure_latest(r->measure), error);
     sb_run_inform_stream(r);
@@ -126,7 +126,7 @@ static sb_status one_step(run *r, sb_error *error)
     if (report->step % LOG_STEPS == 0) {
         sb_run_ensure_log(r);
         sb_run_log_step(r);
-        sb_crew_log(r);
+        sb_cluster_log(r);
     }
     if (status == SB_OK) status = sb_runlog_check(r->log, error);
     if (status == SB_OK && sb_checkpoint_due(r, report->step)) sb_checkpoint_write(r);
@@ -142,7 +142,7 @@ static sb_status advance(run *r, sb_error *error)
     report_departures(r);
     while (status == SB_OK && sb_sim_report(r->sim)->time < r->scene->duration * (1 - 1e-12)) {
         sb_steering_take(r);
-        sb_crew_heed(r);
+        sb_cluster_heed(r);
         if (sb_stop_signal())
             return sb_fail(error, SB_INTERRUPTED, "stopped by a %s at t = %g s", sb_stop_cause(),
                            sb_sim_report(r->sim)->time);
@@ -164,13 +164,13 @@ static void print_profile(const run *r)
         .settling = r->settling_seconds,
         .wall = sb_progress_wall(&r->progress),
         .simulated = sb_sim_report(r->sim)->time,
-        .bytes = sb_crew_bytes(r),
+        .bytes = sb_cluster_bytes(r),
         .threads = omp_get_max_threads(),
         .skipped = {sb_sim_skipped(r->sim), r->measure ? sb_measure_skipped(r->measure) : NULL, r->off},
     };
     profile.stage_count = sb_sim_stages(r->sim, &profile.stages);
     sb_profile_print(stdout, &profile);
-    sb_crew_print(r);
+    sb_cluster_print(r);
 }
 
 /* Saves a checkpoint, also during settling, and adds to the message of a stopped run how to resume it. */
@@ -210,15 +210,15 @@ sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_opti
     r.checkpoints.any_build = options->other_build;
     r.steering.live_port = options->live_port;
     r.steering.live_address = options->live_address;
-    r.crew.ranks = options->ranks;
+    r.cluster.ranks = options->ranks;
     sb_error local = {0};
     sb_progress_begin(&r.progress, options->quiet ? NULL : stdout, scene->duration);
-    sb_stop_watch();
+    sb_cluster_watch();
     sb_status status = sb_run_start(&r, options, &local);
     if (status == SB_OK) status = advance(&r, &local);
     save_at_end(&r, status, &local);
     sb_run_finish(&r, &status, &local);
-    sb_crew_dismiss(&r);
+    sb_cluster_dismiss(&r);
     if (options->profile && r.sim) print_profile(&r);
     sb_checkpoint_end(&r);
     sb_measure_destroy(r.measure);

@@ -1,5 +1,5 @@
 /* After the last step: completes all files of the run, however it ended. */
-#include "app/crew.h"
+#include "app/cluster.h"
 #include "app/grid_maps.h"
 #include "app/grid_report.h"
 #include "app/missed.h"
@@ -41,7 +41,7 @@ static void write_last_state(run *r)
     const sb_particle_format *format = r->recorder.format;
     char path[SB_PATH_MAX], name[SB_PARTICLE_NAME_MAX];
     sb_error reason = {0};
-    sb_frame *frame = sb_crew_snapshot(r);
+    sb_frame *frame = sb_cluster_snapshot(r);
     if (!frame) return;
     sb_particle_format_file(format, 0, name);
     if (sb_make_folder(path, r->directory, SB_PARTICLE_FOLDER, &reason) == SB_OK &&
@@ -55,7 +55,7 @@ static void write_last_state(run *r)
 /* Counts the particles within solids by the winding numbers of the meshes, independently of boundary particles. */
 static sb_status count_inside(run *r, sb_error *error)
 {
-    sb_frame *frame = sb_crew_snapshot(r);
+    sb_frame *frame = sb_cluster_snapshot(r);
     sb_vec3 *displacement = sb_alloc(r->model.body_count, sizeof *displacement);
     sb_inside_report any = {0}, deep = {0};
     sb_status status = SB_OK;
@@ -207,7 +207,7 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         .compression = r->compression,
         .compression_max = r->compression_max,
         .fluid_particles = r->model.fluid_count,
-        .bytes = sb_crew_bytes(r),
+        .bytes = sb_cluster_bytes(r),
         .lost = report->lost,
         .left_domain = report->left_domain,
         .departures = sb_sim_departures(r->sim),
@@ -215,11 +215,11 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         .inside = r->inside,
         .crossed = r->crossed,
         .threads = omp_get_max_threads(),
-        .ranks = sb_ranks_count(r->crew.ranks),
+        .ranks = sb_ranks_count(r->cluster.ranks),
         .bodies = r->measure ? sb_measure_bodies(r->measure) : NULL,
         .first = r->first_energy,
-        .last = sb_crew_energy(r),
-        .hash = sb_crew_hash(r),
+        .last = sb_cluster_energy(r),
+        .hash = sb_cluster_hash(r),
         .frames = r->recorder.count,
         .pictures = r->pictures.film.count,
         .frames_missing = sb_missed_sum(r, RECORDER).count,
@@ -296,7 +296,7 @@ void sb_run_finish(run *r, sb_status *status, sb_error *error)
     if (r->csv) keep_first(status, error, sb_csv_close(r->csv, &reason), &reason);
     if (r->sim) {
         sb_run_log_step(r);
-        sb_crew_log(r);
+        sb_cluster_log(r);
         log_saved(r);
         sb_progress_end(&r->progress, sb_sim_report(r->sim));
     }
@@ -310,7 +310,7 @@ void sb_run_finish(run *r, sb_status *status, sb_error *error)
     const bool leaked = check_lost(r, status, error);
     if (r->sim) /* before plots and films, which take long: a user may stop the process then */
         write_summary(r, status, error);
-    sb_crew_dismiss(r); /* plots and films take long */
+    sb_cluster_dismiss(r); /* plots and films take long */
     if (r->measure && r->scene->output.plots) sb_plots_write(r->directory, r->scene, r->log);
     keep_first(status, error, make_films(r, *status, &reason), &reason);
     sb_steering_close(r);

@@ -1,5 +1,5 @@
 /* Messages of a run to the terminal and its log, and the paths of its files. */
-#include "app/crew.h"
+#include "app/cluster.h"
 #include "app/run_parts.h"
 
 #include <stdarg.h>
@@ -45,9 +45,9 @@ double sb_run_wall(const run *r)
 void sb_run_log_step(run *r)
 {
     const sb_step_report *report = sb_sim_report(r->sim);
-    const sb_energy energy = sb_crew_energy(r);
+    const sb_energy energy = sb_cluster_energy(r);
     sb_runlog_state state = {.report = report, .energy = &energy, .has_foam = r->scene->foam.enabled, .has_hash = true};
     state.stage_count = sb_sim_stages(r->sim, &state.stages);
-    state.hash = sb_crew_hash(r);
+    state.hash = sb_cluster_hash(r);
     sb_runlog_step(r->log, &state);
 }

@@ -1,6 +1,6 @@
 /* Everything before the first step. */
 #include "app/checkpoint.h"
-#include "app/crew.h"
+#include "app/cluster.h"
 #include "app/fit.h"
 #include "app/grid_water.h"
 #include "app/lock.h"
@@ -172,7 +172,7 @@ static sb_status build_model(run *r, bool resume, sb_error *error)
     sb_status status = sb_fit_check(r->scene, error);
     if (status != SB_OK) return status;
     sb_run_report(r, "sampling surfaces and filling the domain with water");
-    status = sb_crew_build(r, error);
+    status = sb_cluster_build(r, error);
     if (status != SB_OK) return status;
     for (size_t w = 0; w < r->model.warning_count; w++)
         fprintf(stderr, "shorebreak: warning: %s\n", r->model.warnings[w]);
@@ -186,7 +186,7 @@ static sb_status make_simulation(run *r, bool resume, sb_error *error)
 {
     r->picture_times.render = &r->scene->render;
     sb_status status = sb_pictures_begin(&r->pictures, r->scene, &r->model, r->directory, error);
-    if (status == SB_OK) status = sb_crew_create(r, resume, error);
+    if (status == SB_OK) status = sb_cluster_create(r, resume, error);
     return status == SB_OK ? sb_run_check_folders(r, error) : status;
 }
 
@@ -220,7 +220,7 @@ static sb_status note_start(run *r, sb_error *error)
     sb_runlog_event(r->log, "build", "%s", r->checkpoints.build);
     sb_runlog_skipped(r->log, r->off);
     note_mesh_guards(r);
-    sb_crew_log_start(r);
+    sb_cluster_log_start(r);
     sb_runlog_skipped(r->log, sb_sim_skipped(r->sim));
     r->setup_seconds = sb_progress_wall(&r->progress);
     return SB_OK;
@@ -241,7 +241,7 @@ static void watch_settling(void *context, int done, int most, double speed)
     sb_run_inform_stream(r);
     sb_steering_take(r);
     if (sb_checkpoint_due(r, (uint64_t)done)) sb_checkpoint_write_settling(r);
-    sb_crew_heed(r);
+    sb_cluster_heed(r);
 }
 
 /* Estimates the number of steps. Falling or surging water has a speed of about 2 sqrt(gD). */
@@ -258,7 +258,7 @@ static sb_status begin(run *r, sb_error *error)
 {
     plan(r);
     if (sb_sim_settles(r->scene)) sb_run_report(r, "settling");
-    sb_status status = sb_crew_settle(r, watch_settling, error);
+    sb_status status = sb_cluster_settle(r, watch_settling, error);
     sb_progress_settled(&r->progress);
     sb_progress_resume(&r->progress, 0); /* the time of settling does not count in the speed of steps */
     r->settling_seconds = sb_progress_wall(&r->progress) - r->setup_seconds;
@@ -272,11 +272,11 @@ static sb_status begin(run *r, sb_error *error)
         sb_runlog_event(r->log, "settled", "after %d steps, highest speed %.3g m/s: %s", rest.steps, rest.speed,
                         rest.ended);
     }
-    status = sb_crew_measure(r, true, error);
+    status = sb_cluster_measure(r, true, error);
     if (status != SB_OK) return status;
     sb_model_free_particles(&r->model);
     sb_runlog_skipped(r->log, sb_measure_skipped(r->measure));
-    r->first_energy = sb_crew_energy(r);
+    r->first_energy = sb_cluster_energy(r);
     status = sb_csv_open(r->directory, r->scene, &r->model, &r->csv, error);
     if (status == SB_OK) status = sb_csv_write(r->csv, sb_measure_latest(r->measure), error);
     return status == SB_OK ? sb_insets_add(&r->pictures.insets, sb_measure_latest(r->measure), error) : status;
@@ -285,7 +285,7 @@ static sb_status begin(run *r, sb_error *error)
 /* Frees the simulation, so that the end of the run writes no report and the files stay as they are. */
 static sb_status give_up(run *r, sb_status status)
 {
-    sb_crew_release(r);
+    sb_cluster_release(r);
     return status;
 }
 
@@ -304,7 +304,7 @@ static sb_status check_end(const run *r, sb_error *error)
 /* Loads a checkpoint and restores the files to what they were when it was written. */
 static sb_status resume_run(run *r, sb_error *error)
 {
-    sb_status status = sb_crew_measure(r, false, error);
+    sb_status status = sb_cluster_measure(r, false, error);
     if (status == SB_OK) status = sb_checkpoint_load(r, error);
     if (status == SB_OK) status = check_end(r, error);
     if (status != SB_OK) return give_up(r, status);
@@ -317,7 +317,7 @@ static sb_status resume_run(run *r, sb_error *error)
                   over ? ": the run is finished; set a longer duration, e.g. with --until, to continue it" : "");
     sb_runlog_event(r->log, "resumed", "step %llu, t = %.9g s, with %d threads, state %016llx",
                     (unsigned long long)report->step, report->time, omp_get_max_threads(),
-                    (unsigned long long)sb_crew_hash(r));
+                    (unsigned long long)sb_cluster_hash(r));
     r->departures = sb_sim_departures(r->sim)->count; /* these were reported when they left */
     status = write_running(r, error);                 /* may fail, so it comes before files are changed */
     if (status != SB_OK) return give_up(r, status);
@@ -334,7 +334,7 @@ static void note_settling(run *r)
     sb_sim_settling(r->sim, &done);
     sb_run_report(r, "resuming from step %d of settling, before t = 0", done);
     sb_runlog_event(r->log, "resumed", "step %d of settling, with %d threads, state %016llx", done,
-                    omp_get_max_threads(), (unsigned long long)sb_crew_hash(r));
+                    omp_get_max_threads(), (unsigned long long)sb_cluster_hash(r));
     r->setup_seconds = sb_progress_wall(&r->progress);
 }
 

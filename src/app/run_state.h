@@ -74,8 +74,8 @@ typedef struct sb_rank_load {
     double heap;                           /* bytes of the simulation, in all ranks */
 } sb_rank_load;
 
-/* The ranks of a run (app/crew.h). */
-typedef struct sb_crew {
+/* The ranks of a run (app/cluster.h). */
+typedef struct sb_cluster {
     sb_ranks *ranks;        /* NULL: this process is alone */
     sb_settle_watch *watch; /* rank 0's own, in settling */
     sb_archive_out *out;    /* rank 0: the checkpoint that is written; NULL in the others */
@@ -88,7 +88,7 @@ typedef struct sb_crew {
     uint64_t hash;
     sb_energy energy;
     sb_rank_load load;
-} sb_crew;
+} sb_cluster;
 
 typedef struct run {
     sb_scene resolved;     /* a shallow copy of the caller's scene, with values that depend on the model */
@@ -112,7 +112,7 @@ typedef struct run {
     uint64_t reported[CONSUMERS];     /* changes of their trouble that were reported */
     sb_steering steering;
     sb_requested requested;
-    sb_crew crew;
+    sb_cluster cluster;
     sb_checkpoints checkpoints;
     sb_particle_list grid_frames; /* files of the depth-averaged model beside the particles */
     sb_csv_marks tables;          /* lengths and hashes of the tables that a resumed run continues */

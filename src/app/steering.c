@@ -1,6 +1,6 @@
 #include "app/steering.h"
 
-#include "app/crew.h"
+#include "app/cluster.h"
 #include "app/picture_now.h"
 #include "app/run_parts.h"
 #include "base/clock.h"
@@ -122,8 +122,8 @@ void sb_steering_take(run *r)
         while (s->paused && !sb_stop_signal()) {
             sb_helper_wait(&s->helper, WAIT_SECONDS);
             take_all(r);
-            sb_crew_stay(r);
-            sb_crew_heed(r);
+            sb_cluster_stay(r);
+            sb_cluster_heed(r);
         }
         sb_progress_paused(&r->progress, sb_clock() - start);
     }

@@ -1,6 +1,6 @@
 /* What each command does, in the run's thread. */
 #include "app/checkpoint.h"
-#include "app/crew.h"
+#include "app/cluster.h"
 #include "app/picture_now.h"
 #include "app/run_parts.h"
 #include "app/steering.h"
@@ -142,7 +142,7 @@ static sb_status act_trigger(run *r, const sb_command *command, char done[SB_STR
         return sb_fail(error, SB_BAD_INPUT,
                        "wave maker \"%s\": its start is %g s in the scene, expected start: command", command->name,
                        scene->wavemakers[w].law.start);
-    const sb_status status = sb_crew_trigger(r, w, error);
+    const sb_status status = sb_cluster_trigger(r, w, error);
     if (status != SB_OK) return status;
     const sb_step_report *report = sb_sim_report(r->sim);
     sb_runlog_event(r->log, "trigger", "wave maker \"%s\" begins before step %" PRIu64 ": start: %.17g", command->name,

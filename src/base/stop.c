@@ -37,15 +37,17 @@ void sb_stop_watch(void)
     signal(SIGPIPE, SIG_IGN);
 }
 
+void sb_stop_watch_forwarded(void)
+{
+    struct sigaction action = {.sa_handler = note, .sa_flags = SA_RESTART};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGUSR1, &action, NULL);
+}
+
 void sb_stop_defer(bool on)
 {
-    if (on) {
-        struct sigaction action = {.sa_handler = note, .sa_flags = SA_RESTART};
-        sigemptyset(&action.sa_mask);
-        sigaction(SIGUSR1, &action, NULL);
-    }
     atomic_store(&deferred, on);
-    const int number = atomic_exchange(&waiting, 0);
+    const int number = atomic_exchange(on ? &noted : &waiting, 0);
     if (number) note(number); /* to where it belongs now */
 }
 

@@ -11,9 +11,11 @@
    stays ignored if it was ignored before, as by nohup. Writing to a closed pipe fails and does not end the process. */
 void sb_stop_watch(void);
 
-/* For one of several processes that have to stop at the same step. While it is on, signals and requests wait:
-   sb_stop_signal does not change until sb_stop_accept. SIGUSR1, which mpirun passes on, then is a request, too. off:
-   what waits is noted. */
+/* The same for SIGUSR1, which mpirun passes on to the processes that it has started. */
+void sb_stop_watch_forwarded(void);
+
+/* For one of several processes that have to stop at the same step. While it is on, signals and requests wait, also
+   those that were noted before: sb_stop_signal returns 0 until sb_stop_accept. off: what waits is noted. */
 void sb_stop_defer(bool on);
 /* The signal that waits, or 0. */
 int sb_stop_waiting(void);
@@ -28,8 +30,8 @@ void sb_stop_request(void);
 /* Returns "signal" or "command". */
 const char *sb_stop_cause(void);
 
-/* Returns the noted signal, or 0. Once a signal is noted, the result stays nonzero. Any thread may call this; it costs
-   one atomic load. */
+/* Returns the noted signal, or 0. Once a signal is noted, the result stays nonzero until sb_stop_defer(true). Any
+   thread may call this; it costs one atomic load. */
 int sb_stop_signal(void);
 
 /* Fails with SB_INTERRUPTED, "stopped by a signal" or "by a command", and what was interrupted. */

@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 enum { NOTE_TAG = 1 };
 
@@ -13,9 +14,8 @@ typedef struct head {
     uint64_t number, failed_at; /* failed_at: the order that failed last in rank 0 */
 } head;
 
-static void complete(world *w, MPI_Request *request, int rank, const char *what)
+static void complete(world *w, MPI_Request *request, int rank, wait state, const char *what)
 {
-    wait state = {0};
     for (int done = 0;;) {
         sb_world_check(w, MPI_Test(request, &done, MPI_STATUS_IGNORE), what);
         if (done) return;
@@ -23,11 +23,11 @@ static void complete(world *w, MPI_Request *request, int rank, const char *what)
     }
 }
 
-static void spread(world *w, void *bytes, size_t size, int from)
+static void spread(world *w, void *bytes, size_t size, int from, wait state)
 {
     MPI_Request request;
     sb_world_check(w, MPI_Ibcast(bytes, (int)size, MPI_BYTE, from, w->control, &request), "order");
-    complete(w, &request, from == w->ranks.rank ? -1 : from, "order");
+    complete(w, &request, from == w->ranks.rank ? -1 : from, state, "order");
 }
 
 /* ---- orders ---- */
@@ -40,7 +40,7 @@ void sb_world_order(sb_ranks *ranks, const void *order, size_t size)
     w->heard_when = 0;
     memcpy(bytes, &first, sizeof first);
     memcpy(bytes + sizeof first, order, size);
-    spread(w, bytes, sizeof first + size, 0);
+    spread(w, bytes, sizeof first + size, 0, (wait){0});
 }
 
 void sb_world_await(sb_ranks *ranks, void *order, size_t size)
@@ -49,7 +49,7 @@ void sb_world_await(sb_ranks *ranks, void *order, size_t size)
     unsigned char bytes[sizeof(head) + 256];
     head first;
     w->heard_when = 0;
-    spread(w, bytes, sizeof first + size, 0);
+    spread(w, bytes, sizeof first + size, 0, (wait){.without_limit = true}); /* rank 0 may work alone for long */
     memcpy(&first, bytes, sizeof first);
     memcpy(order, bytes + sizeof first, size);
     w->order = first.number;
@@ -66,7 +66,7 @@ sb_status sb_world_agree(sb_ranks *ranks, sb_status own, sb_error *error)
     const int mine = (int)own;
     MPI_Request request;
     sb_world_check(w, MPI_Iallgather(&mine, 1, MPI_INT, all, 1, MPI_INT, w->control, &request), "agreement");
-    complete(w, &request, -1, "agreement");
+    complete(w, &request, -1, (wait){0}, "agreement");
     for (int r = 0; r < ranks->count; r++) {
         failed += all[r] != SB_OK;
         if (first < 0 && all[r] != SB_OK) first = r;
@@ -74,7 +74,7 @@ sb_status sb_world_agree(sb_ranks *ranks, sb_status own, sb_error *error)
     if (first < 0) return SB_OK;
     sb_error shared = {0};
     if (first == ranks->rank && error) shared = *error;
-    spread(w, shared.text, sizeof shared.text, first);
+    spread(w, shared.text, sizeof shared.text, first, (wait){0});
     const sb_status status = (sb_status)all[first];
     return failed == ranks->count
                ? sb_fail(error, status, "%s", shared.text)
@@ -90,6 +90,19 @@ static void send_note(world *w, const note *one, int to)
     MPI_Request_free(&request); /* the note stays where it is; messages so short are copied at once */
 }
 
+/* In rank 0, after a failure: until all others have failed in the same order. Otherwise they still are within it, where
+   the messages of the next order would meet those of this one. */
+static void await_failures(world *w)
+{
+    static const struct timespec PAUSE = {.tv_nsec = 1000 * 1000}; /* ns */
+    const double begun = sb_clock();
+    for (sb_world_take_notes(w); w->told_at != w->order || w->told < w->ranks.count - 1; sb_world_take_notes(w)) {
+        if (sb_clock() > begun + SB_WORLD_ALONE)
+            sb_world_end(w, "rank 0 on %s: %s", sb_world_host(&w->ranks, 0), w->failure);
+        nanosleep(&PAUSE, NULL);
+    }
+}
+
 void sb_world_failed(sb_ranks *ranks, const sb_error *reason)
 {
     world *w = ranks->context;
@@ -100,6 +113,7 @@ void sb_world_failed(sb_ranks *ranks, const sb_error *reason)
     memcpy(one->text, w->failure, sizeof one->text);
     for (int r = 0; r < ranks->count; r++)
         if (r != ranks->rank && (ranks->rank == 0 || r == 0)) send_note(w, one, r);
+    if (ranks->rank == 0) await_failures(w);
 }
 
 void sb_world_tell_signal(sb_ranks *ranks, int signal)
@@ -118,11 +132,19 @@ void sb_world_tell_end(world *w)
         if (r != w->ranks.rank) send_note(w, one, r);
 }
 
+static void count_failure(world *w, uint64_t order)
+{
+    if (w->told_at != order) w->told = 0;
+    w->told_at = order;
+    w->told++;
+}
+
 static void take_note(world *w, int from)
 {
     note one;
     sb_world_check(w, MPI_Recv(&one, sizeof one, MPI_BYTE, from, NOTE_TAG, w->control, MPI_STATUS_IGNORE), "note");
     w->ends |= one.kind == NOTE_ENDS;
+    if (one.kind == NOTE_FAILED) count_failure(w, one.order);
     if (one.kind == NOTE_SIGNAL) {
         w->signal = one.signal;
     } else if (one.kind == NOTE_FAILED && one.order == w->order && w->failed_at != w->order) {

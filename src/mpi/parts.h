@@ -7,6 +7,7 @@
 #include <mpi.h>
 
 enum { SB_WORLD_HOST = 64, SB_WORLD_TEXT = 1024 };
+enum { SB_WORLD_ALONE = 5 }; /* s for which the others may take to fail, too */
 
 /* One rank as the others see it. */
 typedef struct peer {
@@ -30,6 +31,7 @@ typedef struct world {
     sb_world_fatal *fatal;
     peer *peers;
     bool crowded; /* more ranks than cores here */
+    int place;    /* number of ranks before this one on its host */
     /* Of the exchange in progress: requests, and the rank of each. */
     MPI_Request *requests;
     int *partners, *done;
@@ -41,12 +43,15 @@ typedef struct world {
     note sent[3];      /* the last of each kind */
     note heard;        /* of a failure in the present order */
     double heard_when; /* on the clock; 0: not heard */
-    int signal;        /* that another rank told */
-    bool ends;         /* another rank has said why all end */
+    uint64_t told_at;  /* rank 0: the order in which other ranks failed last, and how many */
+    int told;
+    int signal; /* that another rank told */
+    bool ends;  /* another rank has said why all end */
 } world;
 
 /* A wait in progress. A zero-initialised struct begins one. */
 typedef struct wait {
+    bool without_limit;   /* the deadline does not count */
     double begun, looked; /* on the clock */
     unsigned turns;
 } wait;

@@ -29,6 +29,11 @@ static int cores_of_this(void)
     return sched_getaffinity(0, sizeof cores, &cores) == 0 ? CPU_COUNT(&cores) : 1;
 }
 
+static bool share_host(const peer *a, const peer *b)
+{
+    return strcmp(a->host, b->host) == 0 && a->processes == b->processes;
+}
+
 sb_status sb_world_meet(world *w, sb_error *error)
 {
     const peer own = describe();
@@ -36,13 +41,10 @@ sb_status sb_world_meet(world *w, sb_error *error)
     if (!w->peers) return sb_fail_memory(error, "the ranks");
     w->peers[w->ranks.rank] = own; /* messages of the wait below name this rank */
     w->ranks.transport->gather(&w->ranks, &own, sizeof own, w->peers);
+    w->place = 0;
+    for (int r = 0; r < w->ranks.rank; r++) w->place += share_host(&own, &w->peers[r]);
     w->crowded = sb_world_sharing(&w->ranks) > cores_of_this();
     return SB_OK;
-}
-
-static bool share_host(const peer *a, const peer *b)
-{
-    return strcmp(a->host, b->host) == 0 && a->processes == b->processes;
 }
 
 int sb_world_vanished(const world *w)

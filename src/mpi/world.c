@@ -36,20 +36,20 @@ void sb_world_check(world *w, int code, const char *what)
 /* ---- waiting ---- */
 
 static const double LOOK_SECONDS = 0.25; /* between two looks at the other processes */
-static const double ALONE_SECONDS = 5;   /* for which the others may take to fail, too */
 static const double LATER_SECONDS = 2;   /* by which other ranks wait longer than rank 0, so that one line is printed */
 
 static void look_for_failure(world *w)
 {
     sb_world_take_notes(w);
     if (w->ends) MPI_Abort(MPI_COMM_WORLD, SB_FAILED); /* silently: one line is enough */
-    if (w->heard_when > 0 && sb_clock() > w->heard_when + ALONE_SECONDS)
+    const double later = w->ranks.rank == 0 ? 0 : LATER_SECONDS;
+    if (w->heard_when > 0 && sb_clock() > w->heard_when + SB_WORLD_ALONE + later)
         sb_world_end(w, "rank %d on %s: %s", w->heard.rank, sb_world_host(&w->ranks, w->heard.rank), w->heard.text);
 }
 
 static void look_for_ended(const world *w, double waited)
 {
-    const int own = w->ranks.rank, gone = waited > LOOK_SECONDS * (1 + own) ? sb_world_vanished(w) : -1;
+    const int gone = waited > LOOK_SECONDS * (1 + w->place) ? sb_world_vanished(w) : -1;
     if (gone < 0) return;
     sb_world_end(w,
                  "rank %d on %s: its process %lld has ended: all ranks end; the last checkpoint stands, to continue it "
@@ -89,7 +89,7 @@ void sb_world_idle(world *w, wait *state, int rank)
         state->looked = now;
         look_for_failure(w);
         look_for_ended(w, now - state->begun);
-        look_at_deadline(w, now - state->begun, rank);
+        if (!state->without_limit) look_at_deadline(w, now - state->begun, rank);
     }
     nap(w, now - state->begun);
 }
@@ -126,7 +126,13 @@ sb_status sb_world_join(double deadline, sb_world_fatal *fatal, sb_ranks **ranks
     w->fatal = fatal;
     set_up(w);
     sb_status status = SB_OK;
-    if (w->ranks.count > SB_RANKS_MAX)
+    const int started = sb_world_started_count();
+    if (w->ranks.count == 1 && started > 1)
+        status = sb_fail(error, SB_FAILED,
+                         "started as one of %d processes, but MPI finds only this one: expected the starter of the MPI "
+                         "that this program was built with, as mpirun of Open MPI or srun --mpi=pmix",
+                         started);
+    else if (w->ranks.count > SB_RANKS_MAX)
         status = sb_fail(error, SB_BAD_INPUT, "%d ranks, expected at most %d", w->ranks.count, SB_RANKS_MAX);
     else if (w->ranks.count > 1)
         status = sb_world_meet(w, error);

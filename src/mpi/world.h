@@ -14,8 +14,8 @@
 typedef void sb_world_fatal(const char *line);
 
 /* Joins the other processes. *ranks: NULL if this process is alone; no MPI is called without a starter. deadline: s
-   that this rank waits for another one before the run ends. SB_FAILED if the system refuses it, or if there are several
-   processes and no MPI in this build. */
+   that this rank waits for another one within an order before the run ends. SB_FAILED if the system refuses it, or if
+   the starter tells of several processes and there is no MPI in this build, or MPI finds only this one. */
 sb_status sb_world_join(double deadline, sb_world_fatal *fatal, sb_ranks **ranks, sb_error *error);
 /* Ends MPI and frees *ranks. All ranks call it at their end; it waits for them without using the processor. NULL has no
    effect. */
@@ -34,15 +34,15 @@ int sb_world_sharing(const sb_ranks *ranks);
 
 /* Rank 0 gives the others an order of `size` bytes, the same size each time. */
 void sb_world_order(sb_ranks *ranks, const void *order, size_t size);
-/* Another rank waits for the next order. */
+/* Another rank waits for the next order, without limit. */
 void sb_world_await(sb_ranks *ranks, void *order, size_t size);
 
 /* What all ranks did together has ended in this rank with `own`. Returns SB_OK if in all; else the status and *error of
    the first rank in which it has not, with its name unless all have failed. All ranks call it. */
 sb_status sb_world_agree(sb_ranks *ranks, sb_status own, sb_error *error);
 
-/* The order has failed in this rank, as it should in all ranks, which do not agree on it. If it has not in the others,
-   all ranks end with this reason. */
+/* The order has failed in this rank, as it should in all ranks, which do not agree on it. If it has not in the others
+   within five seconds, all ranks end with this reason. Rank 0 waits for the others. */
 void sb_world_failed(sb_ranks *ranks, const sb_error *reason);
 
 /* Another rank tells rank 0 that it has received this signal. */

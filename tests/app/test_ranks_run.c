@@ -1,13 +1,18 @@
 /* Runs on several ranks: the same files as on one, whatever happens to the ranks. */
 #include "pair.h"
 
+#include "base/clock.h"
 #include "base/memory.h"
 
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
+
+static const double CHECKPOINT_SECONDS = 30; /* a tank of few particles */
 
 static int setup(void **state)
 {
@@ -65,7 +70,10 @@ static void wait_for_checkpoint(const char *run, pid_t process)
 {
     char names[16][64], folder[64];
     snprintf(folder, sizeof folder, "%s/checkpoints", run);
-    for (int count = 0; kill(process, 0) == 0; usleep(5000)) {
+    const double begun = sb_clock();
+    siginfo_t ended = {0};
+    for (int count = 0; sb_clock() < begun + CHECKPOINT_SECONDS; usleep(5000)) {
+        if (waitid(P_PID, (id_t)process, &ended, WEXITED | WNOHANG | WNOWAIT) != 0 || ended.si_pid == process) break;
         count = exists(folder) ? list_checkpoints(run, names) : 0;
         if (count > 0 && names[0][0] == '0') return;
     }
@@ -105,6 +113,8 @@ static void a_killed_rank_ends_all_and_the_run_resumes(void **state)
 {
     (void)state;
     NEEDS_MPI();
+    setenv("OMPI_MCA_odls_base_sigkill_timeout", "3", 1); /* s until mpirun kills the others, who may have to wait for a
+                                                             core to say what has happened */
     program_on_ranks("3");
     pid_t process = program_start((const char *const[]){"run", "measured.yaml", "--out", "killed", "--quiet", "--set",
                                                         EVERY_THREE, "--until", "60", NULL});
@@ -113,6 +123,7 @@ static void a_killed_rank_ends_all_and_the_run_resumes(void **state)
     assert_true(victim > 0 && kill(victim, SIGKILL) == 0);
     outcome o = program_finish(process);
     program_on_ranks(NULL);
+    unsetenv("OMPI_MCA_odls_base_sigkill_timeout");
     assert_int_equal(o.status, 137); /* mpirun's, for a rank that a signal killed */
     assert_one_reason(o.err, "rank 1 on ");
     outcome_free(&o);
@@ -156,6 +167,23 @@ static void a_signal_stops_all_ranks_at_one_step(void **state)
     assert_same_run("whole", "stopped", pair_tables);
 }
 
+/* mpirun passes SIGUSR1 on, and may have started one process only. */
+static void a_forwarded_signal_stops_one_rank_as_well(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    program_on_ranks("1");
+    pid_t process = program_start((const char *const[]){"run", "measured.yaml", "--out", "forwarded", "--quiet",
+                                                        "--set", EVERY_THREE, "--until", "60", NULL});
+    wait_for_checkpoint("forwarded", process);
+    assert_int_equal(kill(process, SIGUSR1), 0);
+    outcome o = program_finish(process);
+    program_on_ranks(NULL);
+    assert_int_equal(o.status, 128 + SIGUSR1);
+    assert_one_reason(o.err, "stopped by a signal at t = ");
+    outcome_free(&o);
+}
+
 /* Rank 1 is started in another folder, as on a host that has other files. */
 static outcome run_in_two_folders(const char *scene)
 {
@@ -197,7 +225,41 @@ static void a_mistake_gives_one_line(void **state)
     o = RUN(1, "run", "measured.yaml", "--untill", "3");
     assert_one_reason(o.err, "did you mean --until?");
     outcome_free(&o);
+    o = RUN(1, "run", "measured.yaml", "--rank-deadline", "0");
+    assert_one_reason(o.err, "--rank-deadline 0: expected seconds");
+    outcome_free(&o);
     program_on_ranks(NULL);
+}
+
+/* Rank 0's command line is good, that of rank 1 is not. */
+static void a_mistake_of_another_rank_gives_one_line(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    program_on_ranks("1");
+    outcome o = RUN(1, "run", "measured.yaml", "--out", in_folder("never"), ":", "-n", "1", SB_BINARY_DIR "/shorebreak",
+                    "run", "measured.yaml", "--untill", "3");
+    program_on_ranks(NULL);
+    assert_one_reason(o.err, "rank 1 on ");
+    assert_contains(o.err, "did you mean --until?");
+    outcome_free(&o);
+    assert_false(exists("never"));
+}
+
+/* A starter whose processes do not find each other, as the mpirun of another MPI: no copy of the run, and no silence.
+ */
+static void a_foreign_starter_is_refused(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    setenv("PMI_SIZE", "2", 1);
+    setenv("PMI_RANK", "1", 1);
+    outcome o = RUN(2, "run", "measured.yaml", "--out", "never");
+    unsetenv("PMI_SIZE");
+    unsetenv("PMI_RANK");
+    assert_one_reason(o.err, "started as one of 2 processes, but MPI finds only this one");
+    outcome_free(&o);
+    assert_false(exists("never"));
 }
 
 int main(void)
@@ -208,8 +270,11 @@ int main(void)
         cmocka_unit_test(a_killed_rank_ends_all_and_the_run_resumes),
         cmocka_unit_test(a_silent_rank_ends_all_with_status_2),
         cmocka_unit_test(a_signal_stops_all_ranks_at_one_step),
+        cmocka_unit_test(a_forwarded_signal_stops_one_rank_as_well),
         cmocka_unit_test(unequal_ranks_are_refused),
         cmocka_unit_test(a_mistake_gives_one_line),
+        cmocka_unit_test(a_mistake_of_another_rank_gives_one_line),
+        cmocka_unit_test(a_foreign_starter_is_refused),
     };
     return cmocka_run_group_tests(tests, setup, program_teardown);
 }

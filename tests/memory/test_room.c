@@ -110,6 +110,24 @@ static void test_a_run_beyond_memory(void **state)
     assert_non_null(strstr(error.text, "GB are available, of which a fifth is left free"));
 }
 
+/* Each rank holds the model, the program, foam and maps whole; the rest of the water is shared. */
+static void test_ranks_of_a_host_share_its_memory(void **state)
+{
+    (void)state;
+    sb_scene scene = {.dimensions = 3, .resolution = 1, .numerics.support = 2.5};
+    const sb_model model = {.fluid_count = 1000000, .wall_count = 500000}, large = {.fluid_count = (size_t)1 << 40};
+    sb_error error = {0};
+    const double alone = sb_room_needed(&scene, &model), model_bytes = 1e6 * 56 + 5e5 * 48;
+    sb_room_share(4);
+    const double four = sb_room_needed(&scene, &model);
+    assert_near(four - alone, 3 * (1e7 + model_bytes), 1);
+    scene.measure.map = (sb_map){.present = true, .x_max = 4000, .y_max = 5000, .cell = 1};
+    assert_near(sb_room_needed(&scene, &model) - four, 4 * 2e7 * 36, 1);
+    assert_int_equal(sb_room_check(&scene, &large, &error), SB_FAILED);
+    assert_non_null(strstr(error.text, "or fewer ranks"));
+    sb_room_share(1);
+}
+
 static void test_outputs_need_memory(void **state)
 {
     (void)state;
@@ -159,8 +177,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_fifth_is_left_free), /* first: a fork has none of the threads that OpenMP has started */
-        cmocka_unit_test(test_too_fine_a_spacing),   cmocka_unit_test(test_a_run_beyond_memory),
-        cmocka_unit_test(test_outputs_need_memory),  cmocka_unit_test(test_limits_of_the_process),
+        cmocka_unit_test(test_too_fine_a_spacing),
+        cmocka_unit_test(test_a_run_beyond_memory),
+        cmocka_unit_test(test_ranks_of_a_host_share_its_memory),
+        cmocka_unit_test(test_outputs_need_memory),
+        cmocka_unit_test(test_limits_of_the_process),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -108,26 +108,52 @@ static void signals(void)
         sb_world_await(ranks, &done, 1);
 }
 
+static void next_order(void)
+{
+    char order = 1;
+    if (ranks->rank == 0)
+        sb_world_order(ranks, &order, 1);
+    else
+        sb_world_await(ranks, &order, 1);
+}
+
 /* A rank that has failed alone, in the order before or in the middle of one. */
-static void fail_alone(bool within)
+static void fail_alone(int rank, bool within)
 {
     sb_error error = {0};
-    char order = 1;
-    int all[16];
-    if (ranks->rank == 0)
-        sb_world_order(ranks, &order, 1);
-    else
-        sb_world_await(ranks, &order, 1);
+    char own = 1, all[16];
+    next_order();
     sb_fail(&error, SB_FAILED, "no memory here");
-    if (ranks->rank == 1)
+    if (ranks->rank == rank)
         sb_world_failed(ranks, &error);
     else if (within)
-        sb_ranks_gather(ranks, &order, 1, all);
-    if (ranks->rank == 0)
-        sb_world_order(ranks, &order, 1);
-    else
-        sb_world_await(ranks, &order, 1);
-    sb_ranks_gather(ranks, &order, 1, all);
+        sb_ranks_gather(ranks, &own, 1, all);
+    next_order();
+    sb_ranks_gather(ranks, &own, 1, all);
+}
+
+/* What fails in all ranks, in any order of time, does not end them. */
+static void fail_together(void)
+{
+    sb_error error = {0};
+    int all[16];
+    sb_fail(&error, SB_FAILED, "in all");
+    for (int k = 0; k < 6; k++) {
+        next_order();
+        usleep((useconds_t)(30000 * ((ranks->rank + k) % ranks->count)));
+        sb_world_failed(ranks, &error);
+        next_order();
+        const int own = 10 * k + ranks->rank;
+        sb_ranks_gather(ranks, &own, sizeof own, all);
+        for (int r = 0; r < ranks->count; r++) CHECK(all[r] == 10 * k + r);
+    }
+}
+
+/* Rank 0 works alone for longer than the deadline. */
+static void lead_slowly(void)
+{
+    if (ranks->rank == 0) usleep(4500000);
+    next_order();
 }
 
 int main(int count, char **arguments)
@@ -135,7 +161,8 @@ int main(int count, char **arguments)
     const char *what = count > 1 ? arguments[1] : "";
     sb_error error = {0};
     int all[16];
-    if (sb_world_join(strcmp(what, "silent") == 0 ? 1 : 60, end, &ranks, &error) != SB_OK) {
+    const bool soon = strcmp(what, "silent") == 0 || strcmp(what, "slow") == 0;
+    if (sb_world_join(soon ? 1 : 60, end, &ranks, &error) != SB_OK) {
         fprintf(stderr, "probe: %s\n", error.text);
         return 1;
     }
@@ -149,9 +176,12 @@ int main(int count, char **arguments)
         exchange();
         orders();
         signals();
+        fail_together();
     }
-    if (strcmp(what, "alone-before") == 0) fail_alone(false);
-    if (strcmp(what, "alone-within") == 0) fail_alone(true);
+    if (strcmp(what, "slow") == 0) lead_slowly();
+    if (strcmp(what, "alone-before") == 0) fail_alone(1, false);
+    if (strcmp(what, "alone-within") == 0) fail_alone(1, true);
+    if (strcmp(what, "leader-alone") == 0) fail_alone(0, true);
     if (strcmp(what, "dies") == 0 && ranks->rank == ranks->count - 1) raise(SIGKILL);
     if (strcmp(what, "silent") == 0 && ranks->rank == ranks->count - 1) sleep(60);
     sb_ranks_gather(ranks, &count, sizeof count, all);

@@ -1,5 +1,5 @@
 /* How the ranks shared the work, and what they sent to each other. */
-#include "app/crew_orders.h"
+#include "app/cluster_orders.h"
 #include "app/run_parts.h"
 #include "mpi/world.h"
 
@@ -17,7 +17,7 @@ typedef struct share {
 
 static share share_of(const run *r)
 {
-    const sb_ranks *ranks = &r->crew.steps;
+    const sb_ranks *ranks = &r->cluster.steps;
     const sb_stage_time *stages;
     const size_t count = sb_sim_stages(r->sim, &stages);
     share own = {.particles = (double)sb_sim_owned(r->sim),
@@ -60,20 +60,20 @@ static sb_rank_load sum_up(const share *all, int ranks)
     return sum;
 }
 
-sb_status sb_crew_act_loads(run *r, const order *given, sb_error *error)
+sb_status sb_cluster_act_loads(run *r, const order *given, sb_error *error)
 {
     share all[SB_RANKS_MAX];
     const share own = share_of(r);
     (void)given;
     (void)error;
-    sb_ranks_gather(r->crew.ranks, &own, sizeof own, all);
-    r->crew.load = sum_up(all, r->crew.ranks->count);
+    sb_ranks_gather(r->cluster.ranks, &own, sizeof own, all);
+    r->cluster.load = sum_up(all, r->cluster.ranks->count);
     return SB_OK;
 }
 
-size_t sb_crew_bytes(const run *r)
+size_t sb_cluster_bytes(const run *r)
 {
-    return sb_crew_several(r) ? (size_t)r->crew.load.heap : sb_sim_bytes(r->sim);
+    return sb_cluster_several(r) ? (size_t)r->cluster.load.heap : sb_sim_bytes(r->sim);
 }
 
 static void describe(const sb_rank_load *load, char text[300])
@@ -85,27 +85,27 @@ static void describe(const sb_rank_load *load, char text[300])
              100 * load->waited);
 }
 
-void sb_crew_log_start(run *r)
+void sb_cluster_log_start(run *r)
 {
-    if (!sb_crew_several(r)) return;
-    const int hosts = sb_world_hosts(r->crew.ranks);
-    sb_runlog_event(r->log, "ranks", "%d on %d host%s, %d thread%s each", r->crew.ranks->count, hosts,
+    if (!sb_cluster_several(r)) return;
+    const int hosts = sb_world_hosts(r->cluster.ranks);
+    sb_runlog_event(r->log, "ranks", "%d on %d host%s, %d thread%s each", r->cluster.ranks->count, hosts,
                     hosts == 1 ? "" : "s", omp_get_max_threads(), omp_get_max_threads() == 1 ? "" : "s");
 }
 
-void sb_crew_log(run *r)
+void sb_cluster_log(run *r)
 {
     char text[300];
-    if (!sb_crew_several(r)) return;
-    (void)sb_crew_order(r, &(order){.what = ORDER_LOADS}, NULL);
-    describe(&r->crew.load, text);
+    if (!sb_cluster_several(r)) return;
+    (void)sb_cluster_order(r, &(order){.what = ORDER_LOADS}, NULL);
+    describe(&r->cluster.load, text);
     sb_runlog_event(r->log, "load", "%s", text);
 }
 
-void sb_crew_print(const run *r)
+void sb_cluster_print(const run *r)
 {
     char text[300];
-    if (!sb_crew_several(r) || !r->sim) return;
-    describe(&r->crew.load, text);
-    printf("%d ranks: %s\n", r->crew.ranks->count, text);
+    if (!sb_cluster_several(r) || !r->sim) return;
+    describe(&r->cluster.load, text);
+    printf("%d ranks: %s\n", r->cluster.ranks->count, text);
 }

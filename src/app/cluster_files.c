@@ -1,27 +1,27 @@
 /* Checkpoints of several ranks: one file, which rank 0 writes and each rank reads. */
 #include "app/checkpoint_parts.h"
-#include "app/crew_orders.h"
+#include "app/cluster_orders.h"
 #include "base/hash.h"
 #include "mpi/world.h"
 
-void sb_crew_save(run *r, bool settling, sb_archive_out *out)
+void sb_cluster_save(run *r, bool settling, sb_archive_out *out)
 {
-    r->crew.out = out;
-    (void)sb_crew_order(r, &(order){.what = ORDER_SAVE, .flag = settling}, NULL);
+    r->cluster.out = out;
+    (void)sb_cluster_order(r, &(order){.what = ORDER_SAVE, .flag = settling}, NULL);
 }
 
-sb_status sb_crew_act_save(run *r, const order *given, sb_error *error)
+sb_status sb_cluster_act_save(run *r, const order *given, sb_error *error)
 {
     (void)error;
-    sb_sim_save(r->sim, r->crew.out);
-    if (sb_crew_leads(r) && given->flag == 0) sb_measure_save(r->measure, r->crew.out);
+    sb_sim_save(r->sim, r->cluster.out);
+    if (sb_cluster_leads(r) && given->flag == 0) sb_measure_save(r->measure, r->cluster.out);
     return SB_OK;
 }
 
-sb_status sb_crew_load(run *r, bool settling, uint64_t step, sb_archive_in *in, sb_error *error)
+sb_status sb_cluster_load(run *r, bool settling, uint64_t step, sb_archive_in *in, sb_error *error)
 {
-    r->crew.in = in;
-    return sb_crew_order(r, &(order){.what = ORDER_LOAD, .flag = settling, .number = step}, error);
+    r->cluster.in = in;
+    return sb_cluster_order(r, &(order){.what = ORDER_LOAD, .flag = settling, .number = step}, error);
 }
 
 static sb_status open_own(const run *r, const order *given, sb_archive_in *in, sb_error *error)
@@ -37,25 +37,25 @@ static sb_status compare_files(const run *r, const sb_archive_in *in, sb_error *
 {
     uint64_t all[SB_RANKS_MAX];
     const uint64_t own = sb_hash(0, in->bytes, in->length);
-    sb_ranks_gather(r->crew.ranks, &own, sizeof own, all);
-    for (int k = 1; k < r->crew.ranks->count; k++)
+    sb_ranks_gather(r->cluster.ranks, &own, sizeof own, all);
+    for (int k = 1; k < r->cluster.ranks->count; k++)
         if (all[k] != all[0])
             return sb_fail(error, SB_FAILED, "%s: has other contents for rank %d on %s than for rank 0", in->name, k,
-                           sb_world_host(r->crew.ranks, k));
+                           sb_world_host(r->cluster.ranks, k));
     return SB_OK;
 }
 
-sb_status sb_crew_act_load(run *r, const order *given, sb_error *error)
+sb_status sb_cluster_act_load(run *r, const order *given, sb_error *error)
 {
-    const bool several = sb_crew_several(r);
-    sb_archive_in own = {0}, *in = sb_crew_leads(r) ? r->crew.in : &own;
-    sb_status status = sb_crew_leads(r) ? SB_OK : open_own(r, given, &own, error);
-    if (several) status = sb_world_agree(r->crew.ranks, status, error);
+    const bool several = sb_cluster_several(r);
+    sb_archive_in own = {0}, *in = sb_cluster_leads(r) ? r->cluster.in : &own;
+    sb_status status = sb_cluster_leads(r) ? SB_OK : open_own(r, given, &own, error);
+    if (several) status = sb_world_agree(r->cluster.ranks, status, error);
     if (several && status == SB_OK) status = compare_files(r, in, error);
     if (status == SB_OK) {
         status = sb_sim_load(r->sim, in, error);
         if (status == SB_OK && given->flag == 0) status = sb_measure_load(r->measure, in, error);
-        if (several) status = sb_world_agree(r->crew.ranks, status, error);
+        if (several) status = sb_world_agree(r->cluster.ranks, status, error);
     }
     sb_archive_in_free(&own);
     return status;

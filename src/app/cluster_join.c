@@ -1,4 +1,4 @@
-#include "app/crew_join.h"
+#include "app/cluster_join.h"
 
 #include "app/build.h"
 #include "app/team.h"
@@ -22,17 +22,16 @@ static _Noreturn void end(const char *line)
     _exit(SB_FAILED);
 }
 
-sb_status sb_crew_join(const sb_options *options, sb_ranks **ranks, sb_error *error)
+sb_status sb_cluster_join(const sb_options *options, sb_status own, sb_ranks **ranks, sb_error *error)
 {
-    const sb_status status = sb_world_join(options->rank_deadline, end, ranks, error);
+    sb_error reason = {0};
+    if (own != SB_OK && sb_world_started_count() <= 1) return own;
+    const sb_status status = sb_world_join(options->rank_deadline, end, ranks, &reason);
     joined = *ranks;
     if (joined) sb_team_share(sb_world_sharing(joined));
-    return status;
-}
-
-bool sb_crew_speaks(const sb_ranks *ranks)
-{
-    return (ranks ? ranks->rank : sb_world_started_as()) == 0;
+    if (status == SB_OK) return own == SB_OK ? SB_OK : sb_cluster_compare(joined, options, own, error);
+    if (own == SB_OK) *error = reason;
+    return own == SB_OK ? status : own;
 }
 
 /* What must be the same in all ranks. */
@@ -95,7 +94,7 @@ static sb_status compare(const sb_ranks *ranks, const sb_options *options, const
     return SB_OK;
 }
 
-sb_status sb_crew_compare(sb_ranks *ranks, const sb_options *options, sb_status own, sb_error *error)
+sb_status sb_cluster_compare(sb_ranks *ranks, const sb_options *options, sb_status own, sb_error *error)
 {
     identity mine = {0};
     if (!ranks) return own;
