@@ -244,9 +244,8 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         sb_run_warn(r, "overtopping.csv: %s", reason.text);
     summary.rates = rates;
     sb_status found = sb_run_path(r, "summary.json", path, &reason);
-    if (r->measure &&
-        sb_measure_reflections(r->measure, &summary.reflections, &summary.reflection_count, &reason) != SB_OK)
-        sb_run_warn(r, "%s", reason.text);
+    if (found == SB_OK && r->measure)
+        found = sb_measure_reflections(r->measure, &summary.reflections, &summary.reflection_count, &reason);
     if (found == SB_OK) found = sb_summary_write(path, &summary, &reason);
     sb_free(absorptions);
     sb_free(waves);
