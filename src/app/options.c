@@ -99,7 +99,7 @@ static sb_status take_smooth(sb_options *options, const char *value, sb_error *e
     return SB_OK;
 }
 
-/* A refused deadline is not used: the default counts while the other ranks are told. */
+/* A refused deadline is not used: the default counts until all ranks agree on the refusal. */
 static sb_status take_deadline(const char *value, double *deadline, sb_error *error)
 {
     char *end;
