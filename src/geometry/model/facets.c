@@ -171,14 +171,34 @@ static bool goes_on(const builder *b, size_t self, sb_vec3 at)
     return false;
 }
 
+/* Whether an edge lies in a side, or beyond it, from end to end. */
+static bool along_side(const builder *b, int side, const sb_facet_edge *edge)
+{
+    return is_wall(b, side) &&
+           fmax(from_side(b, side, edge->from), from_side(b, side, edge->to)) < TOUCHES * b->spacing;
+}
+
+/* The middle of the part of an edge that is within the walls; of the whole edge if none is. */
+static sb_vec3 middle_within(const builder *b, const sb_facet_edge *edge)
+{
+    double low = 0, high = 1;
+    for (int side = 0; side < SB_SIDES; side++) {
+        if (!is_wall(b, side)) continue;
+        const double from = from_side(b, side, edge->from), to = from_side(b, side, edge->to);
+        if (from < 0 && to > 0) low = fmax(low, from / (from - to));
+        if (from > 0 && to < 0) high = fmin(high, from / (from - to));
+    }
+    const double middle = low < high ? (low + high) / 2 : 0.5;
+    return sb_madd(edge->from, middle, sb_sub(edge->to, edge->from));
+}
+
 /* self: the facet's outline. */
 static sb_bend find_bend(const builder *b, size_t self, const sb_facet *facet, const sb_facet_edge *edge)
 {
-    const sb_vec3 at = sb_scale(sb_add(edge->from, edge->to), 0.5);
+    const sb_vec3 at = middle_within(b, edge);
     sb_bend found = SB_BEND_CONVEX;
     for (int side = 0; side < SB_SIDES; side++)
-        if (is_wall(b, side) && from_side(b, side, at) < TOUCHES * b->spacing &&
-            sb_dot(side_normal(side), edge->inward) > FLAT)
+        if (along_side(b, side, edge) && sb_dot(side_normal(side), edge->inward) > FLAT)
             return is_cut(b, side) ? bend_of(facet->normal, edge->inward, side_normal(side)) : SB_BEND_CONCAVE;
     for (size_t body = 0; body < b->model->body_count; body++) {
         if (!has_mesh(b, body) || !b->space->solid[body]) continue;
