@@ -1,5 +1,5 @@
-/* The divergence is the rate of the density sum at the edges of a plate with water on both sides, and round a moving
-   body: compared with the sums after a small way forth and back. */
+/* The divergence is the rate of the density sum at the edges of a plate with water on both sides, round a moving body,
+   and over a bed that bends: compared with the sums after a small way forth and back. */
 #include "base/memory.h"
 #include "base/random.h"
 #include "check.h"
@@ -59,7 +59,9 @@ static void densities(basin *b, const motion *m, int share, double *out)
     for (size_t i = 0; i < sim->state.n; i++) out[sim->state.id[i]] = (double)sim->work.density[i];
 }
 
-static void compare(basin *b, double time, double dt)
+/* margin: m, distance from the sides within which particles are left out; most: largest difference, over the largest
+   change. */
+static void compare(basin *b, double time, double dt, double margin, double most)
 {
     sb_sim *sim = b->sim;
     sim->state.time = time;
@@ -89,6 +91,8 @@ static void compare(basin *b, double time, double dt)
     densities(b, &m, 1, after);
     size_t at = 0;
     for (size_t i = 0; i < n; i++) {
+        const sb_vec3 q = sb_space_position(&sim->space, m.at[i]), max = b->model.max;
+        if (margin > 0 && fmin(fmin(q.x, q.y), fmin(max.x - q.x, max.y - q.y)) < margin) continue;
         const double off = fabs(0.5 * (after[i] - before[i]) - rate[i]);
         if (off > worst) at = i;
         worst = fmax(worst, off);
@@ -100,7 +104,7 @@ static void compare(basin *b, double time, double dt)
            largest, flux, worst / largest, p.x, p.y, p.z);
     assert_true(largest > 0.5);
     assert_true((flux > 0.1 * largest) == (sim->walls.moving_count > 0));
-    assert_true(worst < 2e-3 * largest);
+    assert_true(worst < most * largest);
     sb_free(m.at), sb_free(m.way), sb_free(divergence), sb_free(rate), sb_free(before), sb_free(after);
 }
 
@@ -135,7 +139,7 @@ static void a_moving_body(void **state)
         sb_paddle_destroy(&paddle);
         spread(&b, 0.9, sb_vec(0.3 + x, flat ? -1 : 0.2, -1), sb_vec(0.6 + x, 2, 0.5));
         basin_start(&b);
-        compare(&b, 0.6, flat ? 2.5e-4 : 5e-4);
+        compare(&b, 0.6, flat ? 2.5e-4 : 5e-4, 0, 2e-3);
         basin_free(&b);
     }
 }
@@ -170,7 +174,56 @@ static void a_plate(void **state)
         assert_true(b.model.facets.facets[0].both);
         spread(&b, 0.9, (sb_vec3){0}, (sb_vec3){0});
         basin_start(&b);
-        compare(&b, 0, 1e-3);
+        compare(&b, 0, 1e-3, 0, 2e-3);
+        basin_free(&b);
+    }
+}
+
+/* A bed of triangles whose slopes differ by some degrees. It is level at its border. Heights: from -most to most. */
+static void write_bed(const char *path, double most)
+{
+    enum { CELLS = 10, CORNERS = CELLS + 1, RIM = 3 };
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    for (int k = 0; k < CORNERS * CORNERS; k++) {
+        const int i = k % CORNERS, j = k / CORNERS;
+        const bool level = i < RIM || j < RIM || i > CELLS - RIM || j > CELLS - RIM;
+        fprintf(file, "v %g %g %g\n", 0.3 * i - 0.3, 0.3 * j - 0.3,
+                0.2 + (level ? 0 : most * (2 * sb_random(9, (uint64_t)k) - 1)));
+    }
+    for (int k = 0; k < CELLS * CELLS; k++) {
+        const int a = k / CELLS * CORNERS + k % CELLS + 1;
+        fprintf(file, "f %d %d %d\nf %d %d %d\n", a, a + 1, a + CORNERS + 1, a, a + CORNERS + 1, a + CORNERS);
+    }
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Bends of a fifth of the tolerance with which surfaces are simplified, about that, and well above it. */
+static void a_bed_that_bends(void **state)
+{
+    (void)state;
+    static const double most[] = {0.002, 0.01, 0.04};
+    for (size_t k = 0; k < sizeof most / sizeof *most; k++) {
+        basin b;
+        char path[64], bodies[256];
+        snprintf(path, sizeof path, "%s/images-rate-%d.obj", SB_BINARY_DIR, (int)getpid());
+        write_bed(path, most[k]);
+        snprintf(bodies, sizeof bodies, "[{name: bed, shape: mesh, role: terrain, file: %s}]", path);
+        const sb_override set[] = {
+            {"dimensions", "3"},
+            {"resolution", "0.1"},
+            {"domain.min", "[0, 0, 0]"},
+            {"domain.max", "[2.4, 2.4, 1.2]"},
+            {"numerics.density", "summed"},
+            {"numerics.jitter", "0.2"},
+            {"water", "{level: 0.6, seed: [0.8, 0.8, 0.5]}"},
+            {"bodies", bodies},
+        };
+        basin_build(&b, set, sizeof set / sizeof *set);
+        remove(path);
+        basin_start(&b);
+        /* Beside walls that stand on a slope the density has jumps (docs/method.md). Weights below 1e-4 are 0. */
+        compare(&b, 0, 1e-3, 0.4, 5e-3);
         basin_free(&b);
     }
 }
@@ -180,6 +233,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_moving_body),
         cmocka_unit_test(a_plate),
+        cmocka_unit_test(a_bed_that_bends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
