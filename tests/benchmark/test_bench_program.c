@@ -69,6 +69,19 @@ static void test_scaling_has_both_thread_counts(void **state)
     sb_bench_rows_free(&rows);
 }
 
+/* The arrays of the simulation are all of its memory. */
+static double sum_of_arrays(const sb_bench_rows *rows)
+{
+    static const char *const arrays[] = {
+        "pair lists in use", "pair lists in reserve", "groups",          "wall pair lists",     "images of walls",
+        "pairs at edges",    "facets of walls",       "sums over cells", "fields of particles", "cells",
+        "boundary particles"};
+    double sum = 0;
+    for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
+        sum += median_of(rows, "plant but coarser", arrays[k]);
+    return sum;
+}
+
 /* The bytes of a field are exact on any machine. */
 static void test_memory_of_arrays(void **state)
 {
@@ -78,6 +91,10 @@ static void test_memory_of_arrays(void **state)
     assert_true(pairs > 20 && pairs < 120);
     assert_true(fabs(median_of(&rows, "plant but coarser", "pair lists in use") - 4 * pairs) < 0.01 * pairs);
     assert_true(median_of(&rows, "plant but coarser by the program", "peak memory") > 4 * pairs);
+    const double all = median_of(&rows, "plant but coarser", "memory of the simulation");
+    print_message("arrays %.1f of %.1f B per particle\n", sum_of_arrays(&rows), all);
+    assert_true(median_of(&rows, "plant but coarser", "images of walls") > 0);
+    assert_true(fabs(sum_of_arrays(&rows) - all) < 0.005 * all);
     const double land = median_of(&rows, "shore", "boundary particles");
     assert_true(median_of(&rows, "shore with ten times the land", "boundary particles") > 2 * land);
     sb_bench_rows_free(&rows);

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "child.h"
 #include "program.h"
+#include "sim/walls/mirrors.h"
 #include "subject.h"
 #include "summary_text.h"
 
@@ -51,6 +52,11 @@ static void add_arrays(const char *name, const sb_bench_subject *subject, sb_ben
         {"groups",
          (double)(sizeof *sim->groups.group * sim->groups.capacity + sizeof *sim->groups.run * sim->groups.room)},
         {"wall pair lists", 8 * (double)sim->work.wall_pairs.capacity},
+        {"images of walls", (double)(sizeof *sim->groups.image * sim->groups.images_room +
+                                     sizeof *sim->groups.plane * sim->groups.planes_room)},
+        {"pairs at edges", (double)(sizeof *sim->work.edge_pairs.pair * sim->work.edge_pairs.capacity)},
+        {"facets of walls", (double)sb_mirrors_bytes(sim)},
+        {"sums over cells", (double)(sizeof *sim->work.cell_sum * sim->work.cell_sum_capacity)},
         {"fields of particles", (double)(sb_state_bytes(&sim->state) + sim->work.bytes)},
         {"cells", (double)sb_cells_bytes(&sim->cells)},
         {"boundary particles", walls + 36 * (double)sim->walls.rest.count},
@@ -62,6 +68,8 @@ static void add_arrays(const char *name, const sb_bench_subject *subject, sb_ben
     for (size_t a = 0; a < sizeof arrays / sizeof arrays[0]; a++)
         sb_bench_add_value(rows, name, sim->state.n, omp_get_max_threads(), arrays[a].name, "B/particle",
                            arrays[a].bytes / n);
+    sb_bench_add_value(rows, name, sim->state.n, omp_get_max_threads(), "memory of the simulation", "B/particle",
+                       (double)sb_sim_bytes(sim) / n);
     sb_bench_add_value(rows, name, sim->state.n, omp_get_max_threads(), "pairs per particle", "1",
                        4 * (double)sim->work.pairs.used / n);
 }
