@@ -128,7 +128,12 @@ static sb_status make_passes(sb_renderer *r, const sb_model *model, sb_error *er
     if (status == SB_OK) status = sb_water_create(r->width, r->height, &r->water, error);
     if (status == SB_OK && r->scene->render.occlusion)
         status = sb_occlusion_create(r->width, r->height, &r->occlusion, error);
-    if (status == SB_OK) status = sb_compose_create(r->scene->foam.enabled, &r->compose, error);
+    const sb_render_settings *settings = &r->scene->render;
+    const sb_effects effects = {.foam = r->scene->foam.enabled,
+                                .shadows = settings->shadows,
+                                .occlusion = settings->occlusion,
+                                .reached = settings->wet_ground || settings->greatest_depth};
+    if (status == SB_OK) status = sb_compose_create(&effects, &r->compose, error);
     return status;
 }
 

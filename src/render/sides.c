@@ -137,8 +137,7 @@ static bool is_water(const struct cut *cut, const struct face *face, const float
     const sb_vec3 origin = cut->frame->origin;
     const double z = (double)p[2] + origin.z;
     if (z < cut->ground->floor_level) return false;
-    return z >= sb_ground_height(cut->ground, (double)p[0] + origin.x, (double)p[1] + origin.y) ||
-           weight >= filled;
+    return z >= sb_ground_height(cut->ground, (double)p[0] + origin.x, (double)p[1] + origin.y) || weight >= filled;
 }
 
 /* Finds the face through which a ray enters the domain, and the depth there; NULL: none. */
@@ -197,12 +196,10 @@ static void cut_pixel(const struct cut *cut, const float direction[3], float *su
 }
 
 sb_status sb_sides_draw(sb_sides *sides, sb_splat *splat, const sb_density *density, const sb_frame *frame,
-                        const float *values, const sb_ground *ground, const sb_view *view, int threads,
-                        sb_error *error)
+                        const float *values, const sb_ground *ground, const sb_view *view, int threads, sb_error *error)
 {
     if (!density->sided || density->n[0] < 2) return SB_OK;
-    struct cut cut = {
-        .density = density, .frame = frame, .ground = ground, .lens = sb_lens_of(view, frame->origin, 0)};
+    struct cut cut = {.density = density, .frame = frame, .ground = ground, .lens = sb_lens_of(view, frame->origin, 0)};
     const double ratio = (double)density->cell / frame->spacing;
     cut.full = (float)(0.5 * (double)reach * ratio * ratio * ratio);
     sb_status status = lay_faces(sides, &cut, error);

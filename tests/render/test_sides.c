@@ -51,8 +51,8 @@ static sb_frame *block(void)
 
 static sb_view view_from(double x, double y, double z)
 {
-    const sb_camera_key key = {
-        0, sb_add(corner, sb_vec(x, y, z)), sb_add(corner, sb_vec(0.5 * side, 0.5 * side, 2)), 50, SB_EASE_SMOOTH};
+    const sb_camera_key key = {0, sb_add(corner, sb_vec(x, y, z)), sb_add(corner, sb_vec(0.5 * side, 0.5 * side, 2)),
+                               50, SB_EASE_SMOOTH};
     return sb_view_create(&key, (double)WIDTH / HEIGHT, sb_sub(corner, sb_vec(30, 30, 30)),
                           sb_add(corner, sb_vec(50, 50, 50)));
 }
