@@ -11,18 +11,21 @@ static const char inputs[] =
     "out vec4 color;\n"
     "uniform sampler2D body_colors, normals, depths, surface, cover, colors, shade, reached, occlusion, deep_colors;\n"
     "uniform vec2 clip;\n"
-    "uniform float solid, occluded, shade_bias, wet, painted, depth_max, clarity, thickest, sea_level, pixels;\n"
+    "uniform float solid, shade_bias, wet, painted, depth_max, clarity, thickest, sea_level, pixels;\n"
     "ivec2 pixel() { return ivec2(gl_FragCoord.xy); }\n"
     "float depth_at(ivec2 p) { return clip.y / (2.0 * texelFetch(depths, p, 0).x - 1.0 - clip.x); }\n"
     "vec3 ray(ivec2 p) {\n"
     "  vec2 at = (vec2(p) + 0.5) / vec2(textureSize(depths, 0)) * 2.0 - 1.0;\n"
     "  return right * at.x * lens.x + up * at.y * lens.y - back;\n"
     "}\n"
+    "#ifdef SHADOWS\n"
     "float sunny(vec3 p, float bias) {\n"
-    "  if (shadows < 0.5) return 1.0;\n"
     "  vec3 s = (to_shadow * vec4(p, 1.0)).xyz;\n"
     "  return 1.0 - 0.65 * above(shade, s.xy, bias - s.z);\n"
-    "}\n";
+    "}\n"
+    "#else\n"
+    "float sunny(vec3 p, float bias) { return 1.0; }\n"
+    "#endif\n";
 
 /* Covers of a pixel by foam, spray and bubbles, and the depth of its spray. */
 static const char foam[] = "#ifdef FOAM\n"
@@ -36,7 +39,7 @@ static const char body[] =
     "vec3 albedo_of(ivec2 p, vec3 place, vec3 n) {\n"
     "  vec4 c = texelFetch(body_colors, p, 0);\n"
     "  vec3 albedo = c.rgb * c.rgb;\n"
-    "  if (wet + painted < 0.5) return albedo;\n"
+    "#ifdef REACHED\n"
     "  vec2 at = (place.xy - ground_frame.xy) * ground_frame.z;\n"
     "  at += n.xy * (1.0 - abs(n.z)) * 1.2 / vec2(textureSize(reached, 0));\n"
     "  float was = above(reached, at, place.z);\n"
@@ -47,6 +50,7 @@ static const char body[] =
     "    vec3 paint = texture(deep_colors, vec2(t, 0.5)).rgb;\n"
     "    albedo = mix(albedo, paint * paint, 0.75 * was);\n"
     "  }\n"
+    "#endif\n"
     "  return albedo;\n"
     "}\n"
     "vec3 body_at(ivec2 p, vec3 place, float open, bool in_water) {\n"
@@ -113,9 +117,11 @@ static const char shallow[] =
     "                                                  : lit(albedo_of(q, at, n), at, n, 1.0, open);\n"
     "  return c * vec3(0.70, 0.90, 0.95);\n"
     "}\n"
-    "float open_at() {\n"
-    "  return occluded > 0.5 ? texture(occlusion, 0.5 * screen + 0.5).x : 1.0;\n"
-    "}\n"
+    "#ifdef OCCLUSION\n"
+    "float open_at() { return texture(occlusion, 0.5 * screen + 0.5).x; }\n"
+    "#else\n"
+    "float open_at() { return 1.0; }\n"
+    "#endif\n"
     "vec4 cover_at(ivec2 p) { return solid > 0.5 ? vec4(1.0, 1e9, 0.0, 0.0) : texelFetch(cover, p, 0); }\n";
 
 /* The shader's branches are not skipped, so that pixels are sorted first: bodies and sky, water through which nothing
@@ -168,9 +174,12 @@ static const char *const mains[SB_COMPOSE_PASSES] = {
               "}\n",
 };
 
-static sb_status make_program(int pass, bool foaming, GLuint *program, sb_error *error)
+static sb_status make_program(int pass, const sb_effects *effects, GLuint *program, sb_error *error)
 {
-    const char *pieces[] = {foaming ? "#define FOAM\n" : "",
+    const char *pieces[] = {effects->foam ? "#define FOAM\n" : "",
+                            effects->shadows ? "#define SHADOWS\n" : "",
+                            effects->occlusion ? "#define OCCLUSION\n" : "",
+                            effects->reached ? "#define REACHED\n" : "",
                             sb_light_source,
                             sb_tops_source,
                             inputs,
@@ -190,12 +199,12 @@ static sb_status make_program(int pass, bool foaming, GLuint *program, sb_error 
     return sb_program_create("picture", sb_fullscreen_vertex, NULL, source, program, error);
 }
 
-sb_status sb_compose_create(bool foaming, sb_compose *compose, sb_error *error)
+sb_status sb_compose_create(const sb_effects *effects, sb_compose *compose, sb_error *error)
 {
     sb_compose made = {0};
     sb_status status = SB_OK;
     for (int pass = 0; pass < SB_COMPOSE_PASSES && status == SB_OK; pass++)
-        status = make_program(pass, foaming, &made.programs[pass], error);
+        status = make_program(pass, effects, &made.programs[pass], error);
     if (status != SB_OK) {
         sb_compose_destroy(&made);
         return status;
@@ -247,7 +256,6 @@ static void draw_pass(const sb_compose *compose, const sb_parts *parts, const sb
     sb_uniform_vec2(program, "clip", (double)-view->projection[10], (double)view->projection[14]);
     sb_uniform_float(program, "pixels", parts->scenery->height / (2 * view->tangent));
     sb_uniform_float(program, "solid", parts->water->solid);
-    sb_uniform_float(program, "occluded", parts->occlusion != NULL);
     sb_uniform_float(program, "shade_bias", parts->shade_bias);
     sb_uniform_float(program, "foaming", parts->foam != 0);
     sb_uniform_float(program, "wet", parts->wet);

@@ -31,8 +31,14 @@ typedef struct sb_parts {
     int map;                       /* of the water's colours */
 } sb_parts;
 
-/* foaming: whether pictures may have foam. Without it the programs have no code for it. */
-sb_status sb_compose_create(bool foaming, sb_compose *compose, sb_error *error);
+/* What pictures may have. The programs have no code for what they may not have, because OpenGL in software executes
+   both sides of a branch. */
+typedef struct sb_effects {
+    bool foam, shadows, occlusion;
+    bool reached; /* sb_parts.reached */
+} sb_effects;
+
+sb_status sb_compose_create(const sb_effects *effects, sb_compose *compose, sb_error *error);
 void sb_compose_destroy(sb_compose *compose);
 
 /* Draws all pixels and depths of the bound framebuffer. */

@@ -139,21 +139,41 @@ static float share_above(double at, double cell, double low)
     return share > 0 ? share < 1 ? (float)share : 1 : 0;
 }
 
-/* The height of the bodies at a place, m relative to the frame's origin. */
-static double height_at(const sb_ground *ground, sb_vec3 shift, double x, double y, double floor_level)
+/* The same where a node's part is not that of its cell but that of a tent, as wide as two cells: exactly what
+   spread_layers gives to a node from even water that ends at `low`. */
+static double tent_above(double at, double cell, double low)
 {
-    const double column = (x + shift.x - ground->x) * ground->per_cell;
-    const double row = (y + shift.y - ground->y) * ground->per_cell;
-    if (!(column >= 0 && row >= 0 && column < ground->side && row < ground->side)) return floor_level;
-    const size_t at = (size_t)row * (size_t)ground->side + (size_t)column;
-    return fmax((double)ground->height[at] - shift.z, floor_level);
+    const double u = (at - low) / cell;
+    if (u <= -1) return 0;
+    return u < 0 ? 0.5 * (1 + u) * (1 + u) : u < 1 ? 1 - 0.5 * (1 - u) * (1 - u) : 1;
+}
+
+double sb_ground_height(const sb_ground *ground, double x, double y)
+{
+    const double inward = 0.5 / ground->per_cell;
+    double at[2] = {x, y};
+    for (int a = 0; a < 2 && ground->sided; a++)
+        at[a] = fmax(fmin(at[a], ground->side_max[a] - inward), ground->side_min[a] + inward);
+    const double column = (at[0] - ground->origin.x - ground->x) * ground->per_cell;
+    const double row = (at[1] - ground->origin.y - ground->y) * ground->per_cell;
+    if (!(column >= 0 && row >= 0 && column < ground->side && row < ground->side)) return ground->floor_level;
+    const size_t cell = (size_t)row * (size_t)ground->side + (size_t)column;
+    return fmax((double)ground->height[cell] + ground->origin.z, ground->floor_level);
+}
+
+float sb_density_share(const sb_density *density, int a, size_t node)
+{
+    const double cell = (double)density->cell, at = (double)density->min[a] + cell * (double)node;
+    if (!density->sided) return 1;
+    if (a == 2) return (float)tent_above(at, cell, (double)density->floor);
+    return (float)(tent_above(at, cell, (double)density->side_min[a]) +
+                   tent_above(-at, cell, -(double)density->side_max[a]) - 1);
 }
 
 /* Sets open to the fraction of each node's cell where water can be, from four columns of each cell. */
 static void find_open(sb_density *density, const sb_frame *frame, const sb_ground *ground, int threads)
 {
-    const double cell = (double)density->cell, floor_level = ground->floor_level - frame->origin.z;
-    const sb_vec3 shift = sb_sub(frame->origin, ground->origin);
+    const double cell = (double)density->cell;
     const size_t layer = density->n[0] * density->n[1];
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (size_t j = 0; j < density->n[1]; j++)
@@ -162,16 +182,38 @@ static void find_open(sb_density *density, const sb_frame *frame, const sb_groun
             for (int c = 0; c < 4; c++) {
                 const double x = (double)density->min[0] + cell * ((double)i + (c & 1 ? 0.25 : -0.25));
                 const double y = (double)density->min[1] + cell * ((double)j + (c & 2 ? 0.25 : -0.25));
-                height[c] = height_at(ground, shift, x, y, floor_level);
+                height[c] = sb_ground_height(ground, x + frame->origin.x, y + frame->origin.y) - frame->origin.z;
             }
+            const float between = sb_density_share(density, 0, i) * sb_density_share(density, 1, j);
             float *open = density->open + j * density->n[0] + i;
             for (size_t k = 0; k < density->n[2]; k++) {
                 const double z = (double)density->min[2] + cell * (double)k;
                 float share = 0;
                 for (int c = 0; c < 4; c++) share += share_above(z, cell, height[c]);
-                open[k * layer] = 0.25f * share;
+                open[k * layer] = between * (0.25f * share);
             }
         }
+}
+
+/* The same, smoothed. */
+static float smoothed_share(const sb_density *density, int a, size_t node)
+{
+    const float at = density->min[a] + density->cell * (float)node, far = 2.1f * density->cell;
+    if (!density->sided || (at - density->side_min[a] > far && density->side_max[a] - at > far)) return 1;
+    const float low = node > 0 ? sb_density_share(density, a, node - 1) : 0;
+    return 0.5f * sb_density_share(density, a, node) + 0.25f * (low + sb_density_share(density, a, node + 1));
+}
+
+/* Divides the density of a row of nodes by the open fraction. The least divisor is 0.06 at a wall, because heights are
+   known only cell by cell; beyond a side, whose place is exact, it is a part of the fraction that the side leaves. */
+static void divide_row(const sb_density *density, size_t j, size_t k, const float *open)
+{
+    const size_t first = (k * density->n[1] + j) * density->n[0];
+    const float least = 0.06f, over = smoothed_share(density, 1, j);
+    for (size_t i = 0; i < density->n[0]; i++) {
+        const float share = over * smoothed_share(density, 0, i), limit = least * (share > 0.004f ? share : 0.004f);
+        density->node[first + i] /= open[first + i] > limit ? open[first + i] : limit;
+    }
 }
 
 /* Divides the density by the open fraction, smoothed in the same way (a normalised convolution): the density of water
@@ -180,14 +222,14 @@ static sb_status extend_to_walls(sb_density *density, const sb_frame *frame, con
                                  sb_error *error)
 {
     const size_t count = density->n[0] * density->n[1] * density->n[2];
-    const float least = 0.06f;
     if (sb_grow((void **)&density->open, &density->capacity[2], count, sizeof(float)) != 0)
         return sb_fail_memory(error, "the density of water in a picture");
     find_open(density, frame, ground, threads);
     float *open = density->open, *spare = density->spare;
     smooth_all(density, &open, &spare, threads);
 #pragma omp parallel for num_threads(threads) schedule(static)
-    for (size_t i = 0; i < count; i++) density->node[i] /= open[i] > least ? open[i] : least;
+    for (size_t row = 0; row < density->n[1] * density->n[2]; row++)
+        divide_row(density, row % density->n[1], row / density->n[1], open);
     /* An odd number of exchanges: the arrays have changed places, and with them their capacities. */
     density->open = open;
     density->spare = spare;
@@ -206,6 +248,13 @@ sb_status sb_density_build(sb_density *density, const sb_frame *frame, const sb_
     sb_status status = make_grid(density, min, max, frame->spacing, error);
     if (status != SB_OK) return status;
     density->slice = min[1] >= max[1] && (max[0] > min[0] || max[2] > min[2]);
+    density->sided = ground && ground->side > 0 && ground->sided && !density->slice;
+    density->floor = density->sided ? (float)(ground->floor_level - frame->origin.z) : 0;
+    for (int a = 0; a < 2 && density->sided; a++) {
+        const double origin = a ? frame->origin.y : frame->origin.x;
+        density->side_min[a] = (float)(ground->side_min[a] - origin);
+        density->side_max[a] = (float)(ground->side_max[a] - origin);
+    }
     spread(density, frame, threads);
     smooth_all(density, &density->node, &density->spare, threads);
     const size_t capacity = density->capacity[0];

@@ -13,7 +13,6 @@ static const float sun[3] = {0.30f, -0.62f, 0.725f};
 
 const char sb_light_source[] = "uniform vec3 eye, sun, ground_frame, right, up, back;\n"
                                "uniform vec2 lens;\n"
-                               "uniform float shadows;\n"
                                "uniform sampler2DShadow shadow_map;\n"
                                "uniform sampler2D ground_map;\n"
                                "uniform mat4 to_shadow;\n"
@@ -34,11 +33,14 @@ const char sb_light_source[] = "uniform vec3 eye, sun, ground_frame, right, up, 
                                "ground_frame.z).xy;\n"
                                "  return mix(map.y, 1.0, clamp((p.z - map.x) * 0.03, 0.0, 1.0));\n"
                                "}\n"
+                               "#ifdef SHADOWS\n"
                                "float sunlit(vec3 p, vec3 n) {\n"
-                               "  if (shadows < 0.5) return 1.0;\n"
                                "  vec3 s = (to_shadow * vec4(p + n * (0.002 / ground_frame.z), 1.0)).xyz;\n"
                                "  return texture(shadow_map, s);\n"
                                "}\n"
+                               "#else\n"
+                               "float sunlit(vec3 p, vec3 n) { return 1.0; }\n"
+                               "#endif\n"
                                /* sunny: fraction of the sun that the water lets through; open: fraction of the sky that
                                   near surfaces leave. */
                                "vec3 lit(vec3 albedo, vec3 p, vec3 n, float sunny, float open) {\n"
@@ -259,7 +261,6 @@ void sb_light_bind(const sb_light *light, const sb_view *view, GLuint program)
     sb_uniform_vec3(program, "ground_frame", light->ground_frame);
     sb_uniform_mat4(program, "to_shadow", light->to_shadow);
     sb_light_bind_rays(view, program);
-    sb_uniform_float(program, "shadows", light->shadows);
     sb_uniform_float(program, "haze", 0.13 / light->size);
     sb_uniform_texture(program, "shadow_map", 4, light->shadow);
     sb_uniform_texture(program, "ground_map", 5, light->ground);

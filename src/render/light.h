@@ -25,6 +25,7 @@ typedef struct sb_light {
 
 /* GLSL functions for fragment shaders: vec3 sky(vec3 direction), vec3 lit(vec3 albedo, vec3 place, vec3 normal, float
    sunny, float open), vec3 hazed(vec3 color, vec3 place), vec4 encoded(vec3 color), and the uniforms that they read.
+   Without the macro SHADOWS the sun is not shaded.
    Colours are linear; the picture is encoded with a gamma of 2. */
 extern const char sb_light_source[];
 

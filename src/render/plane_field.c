@@ -175,10 +175,20 @@ static void gather(const sb_plane_field *field, const struct cells *cells, doubl
     evaluate(&sums, full, out);
 }
 
-static float density_at(const sb_density *density, const sb_frame *frame, const sb_plane *plane, double a, double b)
+/* The density ends at the domain's sides and floor, beyond which the grid of the density continues it: it is limited by
+   a ramp as wide as a cell of the field, so that interpolation between its nodes places the end there. */
+static float density_at(const sb_density *density, const sb_frame *frame, const sb_plane *plane, double a, double b,
+                        double cell)
 {
     const sb_vec3 at = sb_sub(sb_plane_at(plane, a, b), frame->origin);
-    return sb_density_at(density, (float)at.x, (float)at.y, (float)at.z);
+    const float p[3] = {(float)at.x, (float)at.y, (float)at.z};
+    float share = density->sided ? (p[2] - density->floor) / (float)cell + 0.5f : 1;
+    for (int k = 0; k < 2 && density->sided; k++) {
+        const float inside = fminf(p[k] - density->side_min[k], density->side_max[k] - p[k]);
+        share = fminf(share, inside / (float)cell + 0.5f);
+    }
+    const float here = sb_density_at(density, p[0], p[1], p[2]);
+    return share >= 1 ? here : fminf(here, share > 0 ? share : 0);
 }
 
 sb_status sb_plane_field_fill(sb_plane_field *field, const sb_plane *plane, const sb_frame *frame, const float *values,
@@ -200,7 +210,8 @@ sb_status sb_plane_field_fill(sb_plane_field *field, const sb_plane *plane, cons
             const double a = field->low[0] + (double)i * field->cell, b = field->low[1] + (double)j * field->cell;
             const size_t at = j * field->n[0] + i;
             sb_plane_sample *node = &field->node[at];
-            *node = (sb_plane_sample){.velocity = {NAN, NAN}, .density = density_at(density, frame, plane, a, b)};
+            *node = (sb_plane_sample){.velocity = {NAN, NAN},
+                                      .density = density_at(density, frame, plane, a, b, field->cell)};
             if (node->density > 0.1f) gather(field, &cells, a, b, full, node);
             node->solid = field->solid[at];
         }

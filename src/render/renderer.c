@@ -104,6 +104,17 @@ static sb_status make_slicer(sb_renderer *r, const sb_model *model, sb_error *er
     return SB_OK;
 }
 
+/* Frames with water of a grid have it beyond the domain's sides. */
+static void set_sides(sb_ground *ground, const sb_scene *scene, const sb_model *model)
+{
+    ground->floor_level = model->min.z;
+    ground->sided = scene->dimensions == 3 && !sb_scene_nested(scene);
+    ground->side_min[0] = model->min.x;
+    ground->side_min[1] = model->min.y;
+    ground->side_max[0] = model->max.x;
+    ground->side_max[1] = model->max.y;
+}
+
 /* The context must be current. */
 static sb_status make_passes(sb_renderer *r, const sb_model *model, sb_error *error)
 {
@@ -111,13 +122,18 @@ static sb_status make_passes(sb_renderer *r, const sb_model *model, sb_error *er
     if (status == SB_OK) status = sb_meshes_create(model, model->min, &r->meshes, error);
     if (status == SB_OK)
         status = sb_light_create(r->meshes, model->min, r->min, r->max, sea_level(r->scene), &r->light, error);
-    r->light.solid.floor_level = model->min.z;
+    set_sides(&r->light.solid, r->scene, model);
     if (status == SB_OK) r->depth = depth_of(r);
     r->light.shadows = r->scene->render.shadows;
     if (status == SB_OK) status = sb_water_create(r->width, r->height, &r->water, error);
     if (status == SB_OK && r->scene->render.occlusion)
         status = sb_occlusion_create(r->width, r->height, &r->occlusion, error);
-    if (status == SB_OK) status = sb_compose_create(r->scene->foam.enabled, &r->compose, error);
+    const sb_render_settings *settings = &r->scene->render;
+    const sb_effects effects = {.foam = r->scene->foam.enabled,
+                                .shadows = settings->shadows,
+                                .occlusion = settings->occlusion,
+                                .reached = settings->wet_ground || settings->greatest_depth};
+    if (status == SB_OK) status = sb_compose_create(&effects, &r->compose, error);
     return status;
 }
 

@@ -95,6 +95,7 @@ void sb_water_destroy(sb_water *water)
     sb_visible_free(&water->visible);
     sb_surfels_free(&water->surfels);
     sb_splat_free(&water->splat);
+    sb_sides_free(&water->sides);
     *water = (sb_water){0};
 }
 
@@ -138,12 +139,18 @@ sb_status sb_water_draw(sb_water *water, const sb_frame *frame, const float *val
     water->solid = style == SB_WATER_PARTICLES;
     water->density = water->solid ? &water->visible.density : &water->surfels.density;
     if (water->solid) {
-        sb_status status = sb_visible_collect(&water->visible, frame, values, ground, view, threads, error);
+        /* Water that continues beyond the sides would hide the spheres at these. */
+        sb_ground open = ground ? *ground : (sb_ground){0};
+        open.sided = false;
+        sb_status status = sb_visible_collect(&water->visible, frame, values, &open, view, threads, error);
         if (status == SB_OK) draw_spheres(water, frame, view);
         return status;
     }
     sb_status status = sb_surfels_collect(&water->surfels, frame, values, ground, view, threads, error);
     if (status == SB_OK) status = sb_splat_draw(&water->splat, &water->surfels, view, frame->spacing, threads, error);
+    if (status == SB_OK)
+        status =
+            sb_sides_draw(&water->sides, &water->splat, water->density, frame, values, ground, view, threads, error);
     if (status != SB_OK) return status;
     upload(water->surface, &water->splat, water->splat.surface);
     upload(water->cover, &water->splat, water->splat.cover);

@@ -4,6 +4,7 @@
 #define SB_RENDER_WATER_H
 
 #include "render/light.h"
+#include "render/sides.h"
 #include "render/splat.h"
 #include "render/tops.h"
 #include "render/visible.h"
@@ -18,6 +19,7 @@ typedef struct sb_water {
     sb_visible visible;
     sb_surfels surfels;
     sb_splat splat;
+    sb_sides sides;
     sb_density *density; /* of the picture drawn last */
 } sb_water;
 

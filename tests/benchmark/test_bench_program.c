@@ -69,6 +69,24 @@ static void test_scaling_has_both_thread_counts(void **state)
     sb_bench_rows_free(&rows);
 }
 
+static void test_pictures_of_three_kinds(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"picture but smaller", "picture without shadows and occlusion but smaller",
+                                        "picture of 2 M particles but smaller"};
+    sb_bench_rows rows = rows_of("pictures");
+    assert_int_equal(rows.count, 3 + 9); /* limits, three times of each picture */
+    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
+        const double next = median_of(&rows, names[k], SB_BENCH_NEXT_PICTURE);
+        assert_true(next > 0 && median_of(&rows, names[k], "first picture") > 0);
+        assert_true(median_of(&rows, names[k], "processor time") > 0);
+        const double expected = k < 2 ? 2000 : 20000;
+        assert_true(fabs((double)sb_bench_find(&rows, names[k], 0, 0, SB_BENCH_NEXT_PICTURE)->particles - expected) <
+                    0.05 * expected);
+    }
+    sb_bench_rows_free(&rows);
+}
+
 /* The arrays of the simulation are all of its memory. */
 static double sum_of_arrays(const sb_bench_rows *rows)
 {
@@ -163,11 +181,9 @@ static void test_repeats_must_do_same_work(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_kernels_have_limits_of_machine),
-        cmocka_unit_test(test_scaling_has_both_thread_counts),
-        cmocka_unit_test(test_memory_of_arrays),
-        cmocka_unit_test(test_failure_in_process_is_reported),
-        cmocka_unit_test(test_repeats_must_do_same_work),
+        cmocka_unit_test(test_kernels_have_limits_of_machine), cmocka_unit_test(test_scaling_has_both_thread_counts),
+        cmocka_unit_test(test_pictures_of_three_kinds),        cmocka_unit_test(test_memory_of_arrays),
+        cmocka_unit_test(test_failure_in_process_is_reported), cmocka_unit_test(test_repeats_must_do_same_work),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

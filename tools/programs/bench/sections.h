@@ -30,8 +30,8 @@ extern const sb_bench_section sb_bench_sections[];
 /* The section of that name, or NULL. */
 const sb_bench_section *sb_bench_section_find(const char *name);
 
-sb_bench_run sb_bench_kernels, sb_bench_scaling, sb_bench_scenes, sb_bench_memory, sb_bench_large, sb_bench_runs,
-    sb_bench_island;
+sb_bench_run sb_bench_kernels, sb_bench_scaling, sb_bench_scenes, sb_bench_memory, sb_bench_pictures, sb_bench_large,
+    sb_bench_runs, sb_bench_island;
 
 /* Writes the spacing with which the basin has about so many particles. */
 void sb_bench_basin(size_t particles, char resolution[32]);
@@ -43,5 +43,9 @@ void sb_bench_basin(size_t particles, char resolution[32]);
 #define SB_BENCH_MACHINE "machine"
 #define SB_BENCH_COPY "copy bandwidth"
 #define SB_BENCH_ARITHMETIC "arithmetic"
+#define SB_BENCH_PICTURE "picture"
+#define SB_BENCH_PICTURE_PLAIN "picture without shadows and occlusion"
+#define SB_BENCH_PICTURE_LARGE "picture of 2 M particles"
+#define SB_BENCH_NEXT_PICTURE "next picture"
 
 #endif

@@ -40,6 +40,12 @@ static const target targets[] = {
      1e6 / 1073741824},
     {"time added by ten times more dry terrain", "%", 2, 0, false, false, "memory", "shore with ten times the land",
      "time added", 1},
+    {"next picture: 200 k particles, everything on", "ms", 300, 300, false, false, "pictures", SB_BENCH_PICTURE,
+     SB_BENCH_NEXT_PICTURE, 1},
+    {"next picture: 200 k particles, shadows and occlusion off", "ms", 150, 150, false, false, "pictures",
+     SB_BENCH_PICTURE_PLAIN, SB_BENCH_NEXT_PICTURE, 1},
+    {"next picture: 2 M particles, everything on", "ms", 900, 900, false, false, "pictures", SB_BENCH_PICTURE_LARGE,
+     SB_BENCH_NEXT_PICTURE, 1},
     {"conical island, per simulated second", "kB per particle", 2910, 1450, false, true, "island", "conical island",
      "run time per simulated second", 1},
 };
