@@ -20,54 +20,6 @@ static size_t outside_of(const sb_offshore *o, const sb_offshore_jump *j)
     return o->origin + j->row * o->stride + j->column;
 }
 
-static face_side side_of(const sb_offshore *o, const sb_offshore_jump *j, size_t at)
-{
-    const double h = o->now.h[at], scale = h > o->options.dry_depth ? 1 / h : 0;
-    const double u = scale * o->now.hu[at], v = scale * o->now.hv[at];
-    return (face_side){h, h + o->bed[at], j->axis == 0 ? u : v, j->axis == 0 ? v : u};
-}
-
-/* The same water with the wave, or without it. */
-static face_side with_wave(face_side water, const sb_offshore_wave *wave, double add, int sign)
-{
-    const double h = most(water.h + add * wave->surface, 0);
-    return (face_side){h, water.surface + h - water.h, water.across + add * sign * wave->inwards, water.along};
-}
-
-/* Adds a flux through the face, less the one that the scheme has found, to the cell before it or after it. */
-static void add_flux(sb_offshore *o, const sb_offshore_jump *j, size_t column, size_t row, bool after, face_flux wanted,
-                     face_flux found, double rate)
-{
-    const double sign = after ? rate : -rate, volume = sign * (wanted.volume - found.volume);
-    const double across = sign * (after ? wanted.right - found.right : wanted.left - found.left);
-    const double along = sign * (wanted.along - found.along);
-    sb_offshore_add(o, column, row, volume, j->axis == 0 ? across : along, j->axis == 0 ? along : across);
-}
-
-/* The scheme has found the flux between the water outside and that within, whose difference is not a wave. Each cell
-   gets the one that it would have found if its part of the grid had continued. */
-void sb_offshore_jump_fluxes(sb_offshore *offshore, double dt)
-{
-    const double g = offshore->options.gravity, rate = dt / offshore->options.cell;
-    for (size_t k = 0; k < offshore->jump_count; k++) {
-        const sb_offshore_jump *j = &offshore->jumps[k];
-        const size_t at = outside_of(offshore, j);
-        const face_side outside = side_of(offshore, j, at);
-        const face_side within = side_of(offshore, j, (size_t)((ptrdiff_t)at + inwards_of(offshore, j)));
-        const face_side beyond = with_wave(within, &j->within, 1, j->sign),
-                        source = with_wave(outside, &j->outside, -1, j->sign);
-        const bool up = j->sign > 0;
-        if (j->outside.surface == 0 && j->within.surface == 0) continue;
-        const face_flux found = up ? flux_between(outside, within, g) : flux_between(within, outside, g);
-        const face_flux all = up ? flux_between(outside, beyond, g) : flux_between(beyond, outside, g);
-        const face_flux part = up ? flux_between(source, within, g) : flux_between(within, source, g);
-        const size_t column = (size_t)((ptrdiff_t)j->column + (j->axis == 0 ? j->sign : 0));
-        const size_t row = (size_t)((ptrdiff_t)j->row + (j->axis == 1 ? j->sign : 0));
-        add_flux(offshore, j, j->column, j->row, !up, all, found, rate);
-        add_flux(offshore, j, column, row, up, part, found, rate);
-    }
-}
-
 void sb_offshore_jump_breaking(const sb_offshore *offshore)
 {
     for (size_t k = 0; k < offshore->jump_count; k++) {

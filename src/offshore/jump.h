@@ -4,8 +4,8 @@
 
 #include "offshore/state.h"
 
-/* After a step of dt: what the wave carries through the faces. */
-void sb_offshore_jump_fluxes(sb_offshore *offshore, double dt);
+/* jump_flux.c: after a stage, sets the fluxes beside the faces that each part has with the wave. */
+void sb_offshore_jump_fluxes(sb_offshore *offshore, const sb_offshore_update *update);
 
 /* The jump is no breaking wave. */
 void sb_offshore_jump_breaking(const sb_offshore *offshore);

@@ -94,9 +94,9 @@ typedef struct sb_offshore_wave {
 /* A face between two parts of the grid. Outside, the water is that of the part within and a wave, which leaves the face
    outwards and does not enter the part within. */
 typedef struct sb_offshore_jump {
-    size_t column, row;               /* the cell outside */
-    int axis, sign;                   /* of the next cell within: 0 along x, 1 along y; 1 or -1 */
-    sb_offshore_wave outside, within; /* the wave at the centres of the two cells */
+    size_t column, row;                             /* the cell outside */
+    int axis, sign;                                 /* of the next cell within: 0 along x, 1 along y; 1 or -1 */
+    sb_offshore_wave outer, outside, within, inner; /* the wave at the centres of the two cells on either side */
 } sb_offshore_jump;
 
 /* Sets the jumps of the steps that follow; the caller keeps the array. count 0: none. The volume that they add outside

@@ -18,7 +18,7 @@ struct sb_offshore_paddle {
     sb_paddle paddle;
     double celerity; /* m/s, of waves that keep their form; 0: none */
     double still;    /* m/s, of long waves on still water */
-    double gravity, ahead, late;
+    double gravity, ahead;
 };
 
 /* Differences in time are over this part of the time in which a wave crosses a depth. */
@@ -40,7 +40,6 @@ sb_status sb_offshore_paddle_create(const sb_offshore_paddle_options *options, s
     made->gravity = options->law.gravity;
     made->still = sqrt(made->gravity * options->depth);
     made->ahead = options->ahead;
-    made->late = options->late;
     *paddle = made;
     return SB_OK;
 }
@@ -93,7 +92,7 @@ static double source_of(const sb_offshore_paddle *p, double time)
 
 sb_offshore_push sb_offshore_paddle_at(const sb_offshore_paddle *paddle, double time)
 {
-    const double t = source_of(paddle, time + paddle->late), d = difference_of(paddle);
+    const double t = source_of(paddle, time), d = difference_of(paddle);
     const double speed = speed_at(paddle, t), c = phase_speed(paddle, speed);
     const double rate = (speed_at(paddle, t + d) - speed_at(paddle, t - d)) / (2 * d);
     /* A phase stays before the side for longer than at the paddle, which follows it. */

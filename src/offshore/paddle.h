@@ -9,7 +9,6 @@ typedef struct sb_offshore_paddle_options {
     sb_wavemaker_parameters law;
     double ahead; /* m, from the paddle's face before its motion to the side, inwards */
     double depth; /* m, still water at the side */
-    double late;  /* s, time of the law when that of the grid is 0 */
 } sb_offshore_paddle_options;
 
 /* SB_BAD_INPUT for values that the law cannot use. The caller owns *paddle. */
@@ -17,7 +16,7 @@ sb_status sb_offshore_paddle_create(const sb_offshore_paddle_options *options, s
                                     sb_error *error);
 void sb_offshore_paddle_destroy(sb_offshore_paddle *paddle);
 
-/* The water that the waves of a paddle have at the side at a time of the grid, s. */
+/* The water that the waves of a paddle have at the side at a time of the grid, s, which is that of the law. */
 sb_offshore_push sb_offshore_paddle_at(const sb_offshore_paddle *paddle, double time);
 
 /* How the surface, and the non-hydrostatic pressure over the depth, rise inwards at the side where the water is h deep:

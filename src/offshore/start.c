@@ -130,8 +130,7 @@ static sb_status create_paddle(const sb_scene *scene, const sb_offshore_start *s
         if (options->side[side] != SB_OFFSHORE_PADDLE) continue;
         const sb_offshore_paddle_options paddle = {.law = o->paddle.law,
                                                    .ahead = (side % 2 ? -1 : 1) * (place[side] - o->paddle_at),
-                                                   .depth = depth_at(scene, start, side),
-                                                   .late = sb_scene_nested(scene) ? scene->given.start : 0};
+                                                   .depth = depth_at(scene, start, side)};
         if (!(paddle.depth > 0))
             return sb_fail(error, SB_BAD_INPUT,
                            "offshore.sides.%s: paddle, but there is no water, expected water at the side",

@@ -43,8 +43,8 @@ struct sb_offshore {
     double *edge;    /* m^2/s into the grid through x_min and x_max, per line; y_min, y_max per column */
     double *scratch; /* SB_OFFSHORE_ROWS rows per thread */
     int scratch_threads;
-    double entered[SB_OFFSHORE_SIDES], added, repaired, first; /* m^3 */
-    double pending[SB_OFFSHORE_SIDES], pending_repaired;       /* m^3, of the step in progress */
+    double entered[SB_OFFSHORE_SIDES], added, repaired, first;          /* m^3 */
+    double pending[SB_OFFSHORE_SIDES], pending_repaired, pending_added; /* m^3, of the step in progress */
 };
 
 /* create.c */

@@ -86,6 +86,7 @@ static void book(sb_offshore *offshore)
 {
     for (int s = 0; s < SB_OFFSHORE_SIDES; s++) offshore->entered[s] += offshore->pending[s];
     offshore->repaired += offshore->pending_repaired;
+    offshore->added += offshore->pending_added;
 }
 
 sb_status sb_offshore_step(sb_offshore *offshore, double most, double *taken, sb_error *error)
@@ -104,10 +105,12 @@ sb_status sb_offshore_step(sb_offshore *offshore, double most, double *taken, sb
     if (offshore->dispersion) status = sb_offshore_find_dispersion(offshore, &offshore->now, 0, dt, error);
     if (status != SB_OK) return status;
     sb_offshore_advance(offshore, &first);
+    sb_offshore_jump_fluxes(offshore, &first);
     prepare(offshore, &offshore->stage, offshore->time + dt);
     if (offshore->dispersion) status = sb_offshore_find_dispersion(offshore, &offshore->stage, 1, dt, error);
     if (status != SB_OK) return status;
     sb_offshore_advance(offshore, &second);
+    sb_offshore_jump_fluxes(offshore, &second);
     sb_offshore_apply_friction(offshore, &offshore->before, dt);
     book(offshore);
     const sb_offshore_level level = offshore->now;
@@ -116,7 +119,6 @@ sb_status sb_offshore_step(sb_offshore *offshore, double most, double *taken, sb
     offshore->before_time = offshore->time;
     offshore->time += dt;
     offshore->steps++;
-    sb_offshore_jump_fluxes(offshore, dt);
     if (taken) *taken = dt;
     return SB_OK;
 }

@@ -208,6 +208,12 @@ static void a_paddle_makes_the_wave(void **state)
     assert_near(highest_between("paddle", 0, 4.5), height, 0.008);
     const double volume = entered_at_x_min("paddle/summary.json");
     assert_near(volume, 2 * height / kappa, 2e-3 * 2 * height / kappa);
+    /* The grid and its paddle begin before the particles. */
+    RUN_AND_FORGET(0, "run", "nested.yaml", "--out", "early", "--quiet", "--set", grid, "--set", "duration=2.5",
+                   "--set", "sea.start=-1.5", "--set", "measure.gauges=[{name: g, x: 1.2}, {name: far, x: -1.2}]");
+    double early;
+    assert_near(highest_at("early", "far", 0, 2.5, &early), height, 1e-3);
+    assert_near(early, half + (3 - stroke / 2) / c - 1.5, 0.025);
     outcome o = RUN(1, "check", "nested.yaml", "--set", "offshore.sides={x_min: paddle}");
     assert_contains(o.err, "offshore.sides: x_min: paddle, but there is no block offshore.paddle, expected its law");
     outcome_free(&o);

@@ -69,8 +69,9 @@ sb_status sb_strip_create(sb_sim *sim, sb_error *error)
     const sb_status status = sb_sea_create(sim->scene, &sim->model->grid, &sim->strip->sea, error);
     for (int side = 0; side < 4 && status == SB_OK; side++) {
         if (!sb_scene_sea_side(sim->scene, side)) continue;
-        if (create_side(sim, side, &sim->strip->side[sim->strip->count++]) != 0)
-            return sb_fail_memory(error, "strips of given water");
+        sb_strip_side *made = &sim->strip->side[sim->strip->count++];
+        if (create_side(sim, side, made) != 0) return sb_fail_memory(error, "strips of given water");
+        made->far = sb_strip_to_line(sim, made);
     }
     return status;
 }

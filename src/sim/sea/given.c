@@ -70,7 +70,11 @@ static sb_outgoing outgoing_at(const sb_sim *sim, const sb_strip_side *s, double
     const sb_outgoing *a = &s->station[k], *b = s->stations > 1 ? a + 1 : a;
     return (sb_outgoing){.value = free * (a->value + f * (b->value - a->value)),
                          .rate = free * (a->rate + f * (b->rate - a->rate)),
-                         .curvature = free * (a->curvature + f * (b->curvature - a->curvature))};
+                         .curvature = free * (a->curvature + f * (b->curvature - a->curvature)),
+                         .late = {a->late.delay + f * (b->late.delay - a->late.delay),
+                                  free * (a->late.value + f * (b->late.value - a->late.value)),
+                                  free * (a->late.rate + f * (b->late.rate - a->late.rate)),
+                                  free * (a->late.curvature + f * (b->late.curvature - a->late.curvature))}};
 }
 
 /* What the outgoing wave of a side adds at a place where long waves have this speed: m/s, and 1/s^n. */
@@ -108,11 +112,14 @@ void sb_strip_total(const sb_sim *sim, const sb_strip_side *s, double later, dou
                     sb_column *water)
 {
     const double g = (double)sim->constant.gravity, depth_in = fmax(water->depth, SHALLOW * sim->scene->resolution);
-    sb_outgoing w = outgoing_at(sim, s, along);
-    passing p = passing_at(s, &w, inwards, depth_in, g);
-    /* Farther from the measured water than the strip, and later, the wave's change of rate counts. */
-    const double delay = (s->strip - inwards) / sqrt(g * depth_in) - later;
-    p.value = w.value - delay * w.rate + 0.5 * delay * delay * w.curvature;
+    const sb_late w = outgoing_at(sim, s, along).late;
+    const double long_wave = sqrt(g * depth_in), line = s->strip - s->far;
+    /* Over the few cells beside the line the wave goes with the speed of its crest: that of a solitary wave with
+       dispersion, and of a simple wave without. */
+    const double crest = fmax(long_wave - (sim->scene->offshore.dispersion ? 0.25 : 0.75) * w.value, 0.5 * long_wave);
+    const double delay = (line - inwards) / crest + s->far / long_wave - w.delay - later;
+    const passing p = {.value = w.value - delay * w.rate + 0.5 * delay * delay * w.curvature,
+                       .disperse = depth_in / (12 * g) * w.curvature};
     const double speed = fmax(sqrt(g * depth_in) - 0.25 * (p.value - p.disperse), 0);
     water->depth = speed * speed / g;
     water->inwards += 0.5 * (p.value + p.disperse);

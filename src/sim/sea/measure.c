@@ -25,6 +25,10 @@ static const double DAMPING = 0.70710678; /* Butterworth's */
    motion reaches the measured water: with the derivative of the faster filter the loop would be unstable. */
 static const double SLOW = 2;
 
+/* Frequency over sqrt(g/h) of the filter for the wave at the line of a grid, which the measured water does not feel;
+   least delay, in time steps. */
+static const double AT_LINE = 4, LEAST_DELAY = 4;
+
 /* Weight at a distance from the centre of the averaged length. */
 static double weight_at(double distance, double reach)
 {
@@ -154,20 +158,42 @@ static means given_means(const sb_sim *sim, const sb_strip_side *s, size_t stati
 }
 
 /* Advances a filter of second order by a step. Returns its second derivative. */
-static double filter(double *value, double *rate, double input, double omega, double dt)
+static double filter(double *value, double *rate, double input, double omega, double damping, double dt)
 {
-    const double curvature = (omega * omega * (input - *value - dt * *rate) - 2 * DAMPING * omega * *rate) /
-                             (1 + 2 * DAMPING * omega * dt + omega * omega * dt * dt);
+    const double curvature = (omega * omega * (input - *value - dt * *rate) - 2 * damping * omega * *rate) /
+                             (1 + 2 * damping * omega * dt + omega * omega * dt * dt);
     *rate += dt * curvature;
     *value += dt * *rate;
     return curvature;
 }
 
-/* Advances a station by a step. delay: time of a wave to the strip; crossing: over one depth; s. */
-static void advance(sb_outgoing *o, double now, double delay, double crossing, double dt)
+/* The wave at the line of a grid, `far` seconds later. A filter of its own gives derivatives that are smooth, and a
+   part of the delay. The rest is Pade's approximation of second order, (1 - d/2 + d^2/12) / (1 + d/2 + d^2/12) with d =
+   delay * d/dt: it changes no amplitude, where a series in the delay is wrong for waves that are shorter than the way.
+   With x the wave divided by the denominator, the quotient is the wave less delay * dx/dt. */
+static void delay_wave(sb_outgoing *o, double far, double crossing, double dt)
 {
-    filter(&o->value, &o->rate, now, 2 * DAMPING / delay, dt);
-    o->curvature = filter(&o->slow, &o->slow_rate, o->value, SLOW / crossing, dt);
+    const double omega = AT_LINE / crossing, root = sqrt(12);
+    const double lag = 2 * DAMPING / omega, delay = fmax(far - lag, LEAST_DELAY * dt);
+    const double curvature = filter(&o->smooth, &o->smooth_rate, o->value, omega, DAMPING, dt);
+    const double second = filter(&o->part, &o->part_rate, o->smooth, root / delay, 0.25 * root, dt);
+    const double third = 12 / (delay * delay) * (o->smooth_rate - o->part_rate - 0.5 * delay * second);
+    o->late = (sb_late){lag + delay, o->smooth - delay * o->part_rate, o->smooth_rate - delay * second,
+                        curvature - delay * third};
+}
+
+/* Times that waves need, s: to the strip, over one depth, and from the strip to the line of a grid (0: there is none).
+ */
+typedef struct times {
+    double delay, crossing, far;
+} times;
+
+/* Advances a station by a step. */
+static void advance(sb_outgoing *o, double now, const times *t, double dt)
+{
+    filter(&o->value, &o->rate, now, 2 * DAMPING / t->delay, DAMPING, dt);
+    o->curvature = filter(&o->slow, &o->slow_rate, o->value, SLOW / t->crossing, DAMPING, dt);
+    if (t->far > 0) delay_wave(o, t->far, t->crossing, dt);
 }
 
 static void measure_station(sb_sim *sim, const sb_strip_side *s, size_t station)
@@ -184,17 +210,17 @@ static void measure_station(sb_sim *sim, const sb_strip_side *s, size_t station)
         o->share = sim->strip->still && volume > 0 ? still / volume : 1;
         o->share = o->share > SHARE_MIN && o->share < SHARE_MAX ? o->share : 1;
     }
-    const double wave_speed = sqrt(g * fmax(in.depth, dr)), delay = reach / wave_speed;
-    const double crossing = fmax(in.depth, dr) / wave_speed;
+    const double wave_speed = sqrt(g * fmax(in.depth, dr));
+    const times t = {reach / wave_speed, fmax(in.depth, dr) / wave_speed, s->far / wave_speed};
     if (!(volume > LEAST_DEPTH * dr * area)) {
-        advance(o, 0, delay, crossing, dt);
+        advance(o, 0, &t, dt);
         return;
     }
     const double level = level_of(sim, s, station, in.surface, volume * o->share);
     const double depth = fmax(in.depth + level - in.surface, 0), scale = (double)sim->constant.wave_speed;
     const double u = (double)sums[1] / (double)sums[0] * scale;
     const double now = u - in.inwards - 2 * (sqrt(g * depth) - sqrt(g * in.depth));
-    advance(o, now, delay, crossing, dt);
+    advance(o, now, &t, dt);
 }
 
 sb_status sb_strip_measure(sb_sim *sim, sb_error *error)

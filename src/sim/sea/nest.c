@@ -56,6 +56,19 @@ static line line_of(const sb_sim *sim, const sb_offshore_view *v, const sb_strip
     return l;
 }
 
+static bool has_line(const sb_sim *sim, const sb_strip_side *s)
+{
+    return sb_sea_grid(sim->strip->sea) && sim->scene->offshore.coupling == SB_COUPLING_TWO_WAY &&
+           sb_scene_given_side(sim->scene, s->side);
+}
+
+double sb_strip_to_line(const sb_sim *sim, const sb_strip_side *s)
+{
+    if (!has_line(sim, s)) return 0;
+    const sb_offshore_view v = sb_offshore_read(sb_sea_grid(sim->strip->sea));
+    return s->strip - line_of(sim, &v, s).inwards;
+}
+
 static sb_offshore_wave wave_at(const sb_sim *sim, const sb_strip_side *s, double later, double inwards, double along,
                                 double depth)
 {
@@ -76,8 +89,9 @@ static sb_offshore_jump jump_at(const sb_sim *sim, const sb_offshore_view *v, co
     const double h = v->h[(ptrdiff_t)(jump.row * v->stride + jump.column) + within];
     const double place = l->start + (double)k * v->cell;
     if (!(h > sim->scene->resolution)) return jump;
-    jump.outside = wave_at(sim, l->side, later, l->inwards - 0.5 * v->cell, place, h);
-    jump.within = wave_at(sim, l->side, later, l->inwards + 0.5 * v->cell, place, h);
+    sb_offshore_wave *const wave[] = {&jump.outer, &jump.outside, &jump.within, &jump.inner};
+    for (int cell = 0; cell < 4; cell++)
+        *wave[cell] = wave_at(sim, l->side, later, l->inwards + (cell - 1.5) * v->cell, place, h);
     return jump;
 }
 
@@ -89,7 +103,7 @@ static sb_status set_jumps(sb_sim *sim, sb_offshore *grid, double now, sb_error 
     sb_strip *strip = sim->strip;
     size_t count = 0;
     for (size_t n = 0; n < strip->count; n++) {
-        if (!sb_scene_given_side(sim->scene, strip->side[n].side)) continue;
+        if (!has_line(sim, &strip->side[n])) continue;
         const line l = line_of(sim, &v, &strip->side[n]);
         if (sb_grow((void **)&strip->jumps, &strip->jump_capacity, count + l.count, sizeof *strip->jumps) != 0)
             return sb_fail_memory(error, "waves that leave into the grid");

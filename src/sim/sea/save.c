@@ -5,8 +5,16 @@
 
 #include <math.h>
 
-/* Reals of a station that outlive a step. */
-enum { REALS = 5 };
+/* Reals of a station that outlive a step; the last ones only beside a line of a grid. */
+enum { REALS = 9, WITHOUT_LINE = 5 };
+
+static size_t reals_of(const sb_strip_side *s, const sb_outgoing *o, double reals[REALS])
+{
+    const double all[REALS] = {o->share,  o->value,       o->rate, o->slow,     o->slow_rate,
+                               o->smooth, o->smooth_rate, o->part, o->part_rate};
+    memcpy(reals, all, sizeof all);
+    return s->far > 0 ? REALS : WITHOUT_LINE;
+}
 
 void sb_strip_save(const sb_sim *sim, sb_archive_out *out)
 {
@@ -19,9 +27,9 @@ void sb_strip_save(const sb_sim *sim, sb_archive_out *out)
     for (size_t k = 0; k < sim->strip->count; k++) {
         const sb_strip_side *s = &sim->strip->side[k];
         for (size_t n = 0; n < s->stations; n++) {
-            const sb_outgoing *o = &s->station[n];
-            const double reals[REALS] = {o->share, o->value, o->rate, o->slow, o->slow_rate};
-            sb_put_list(out, reals, REALS, sizeof *reals);
+            double reals[REALS];
+            const size_t count = reals_of(s, &s->station[n], reals);
+            sb_put_list(out, reals, count, sizeof *reals);
         }
         sb_put_list(out, s->row_count, s->columns, sizeof *s->row_count);
         sb_put_list(out, s->owed, s->columns * s->rows, sizeof *s->owed);
@@ -33,10 +41,17 @@ static void load_side(sb_strip_side *s, sb_archive_in *in)
 {
     for (size_t n = 0; n < s->stations; n++) {
         sb_outgoing *o = &s->station[n];
-        double reals[REALS];
-        sb_take_list(in, reals, REALS, sizeof *reals);
-        *o = (sb_outgoing){
-            .share = reals[0], .value = reals[1], .rate = reals[2], .slow = reals[3], .slow_rate = reals[4]};
+        double reals[REALS] = {0};
+        sb_take_list(in, reals, s->far > 0 ? REALS : WITHOUT_LINE, sizeof *reals);
+        *o = (sb_outgoing){.share = reals[0],
+                           .value = reals[1],
+                           .rate = reals[2],
+                           .slow = reals[3],
+                           .slow_rate = reals[4],
+                           .smooth = reals[5],
+                           .smooth_rate = reals[6],
+                           .part = reals[7],
+                           .part_rate = reals[8]};
         for (int r = 0; r < REALS; r++)
             if (!isfinite(reals[r])) sb_archive_refuse(in, "the outgoing wave of a side is not finite");
     }
@@ -75,9 +90,9 @@ uint64_t sb_strip_hash(const sb_sim *sim, uint64_t hash)
     for (size_t k = 0; k < sim->strip->count; k++) {
         const sb_strip_side *s = &sim->strip->side[k];
         for (size_t n = 0; n < s->stations; n++) {
-            const sb_outgoing *o = &s->station[n];
-            const double reals[REALS] = {o->share, o->value, o->rate, o->slow, o->slow_rate};
-            hash = sb_hash(hash, reals, sizeof reals);
+            double reals[REALS];
+            const size_t count = reals_of(s, &s->station[n], reals);
+            hash = sb_hash(hash, reals, count * sizeof *reals);
         }
         hash = sb_hash(hash, s->row_count, s->columns * sizeof *s->row_count);
         hash = sb_hash(hash, s->owed, s->columns * s->rows * sizeof *s->owed);

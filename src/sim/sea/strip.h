@@ -7,6 +7,11 @@
 #include "sea/sea.h"
 #include "sim/simulation.h"
 
+/* The outgoing wave where it is some seconds later, with the derivatives of its value. */
+typedef struct sb_late {
+    double delay, value, rate, curvature; /* s, m/s, m/s^2, m/s^3 */
+} sb_late;
+
 /* The outgoing wave inside of a strip, over a few spacings along the side. */
 typedef struct sb_outgoing {
     double share;           /* volume of the water over that of its particles, at rest; 0: not known yet */
@@ -14,6 +19,8 @@ typedef struct sb_outgoing {
     double rate;            /* m/s^2, d value / dt */
     double slow, slow_rate; /* the same by a slower filter */
     double curvature;       /* m/s^3, d slow_rate / dt; of the present step only */
+    double smooth, smooth_rate, part, part_rate; /* value by the filters that delay it to the line of a grid */
+    sb_late late;                                /* at this line; of the present step only */
 } sb_outgoing;
 
 /* One side. Distances are inwards from the side and along it, from the domain's corner. */
@@ -21,6 +28,7 @@ typedef struct sb_strip_side {
     int side, axis, other;              /* axis across the side, and along it */
     int64_t edge, width;                /* quanta: position of the side, width of the strip */
     double strip;                       /* m, the same width */
+    double far;                         /* m from the strip's inner edge to the line of a grid; 0: one-way, or none */
     size_t stations;                    /* where the outgoing wave is measured */
     double station_from, station_pitch; /* m, along the side, without the strips of neighbouring sides */
     sb_outgoing *station;               /* state */
@@ -108,7 +116,10 @@ double sb_strip_free_part(const sb_sim *sim, const sb_strip_side *s, double alon
 /* measure.c: measures the outgoing waves of all sides at the present time, and advances them by the time step. */
 sb_status sb_strip_measure(sb_sim *sim, sb_error *error);
 
-/* nest.c: steps the depth-averaged model, if it gives the water, to the end of the present step or beyond; two-way it
+/* nest.c: distance from the strip's inner edge to the line at which the waves that leave enter the depth-averaged
+   model, m; 0: there is none. */
+double sb_strip_to_line(const sb_sim *sim, const sb_strip_side *s);
+/* Steps the depth-averaged model, if it gives the water, to the end of the present step or beyond; two-way it
    gets the outgoing waves, which must be measured before. */
 sb_status sb_strip_advance_grid(sb_sim *sim, sb_error *error);
 
