@@ -51,8 +51,9 @@ static void print_absorption(const sb_scene *scene, const sb_wavemaker_use *make
 {
     const double reflection = paddle_reflection(scene, maker, paddle);
     if (isnan(reflection)) return;
-    printf("    absorbs within %.3g m of its law; predicted reflection at %.4g s %.2g %%\n", maker->law.reach,
-           paddle->kind->facts(paddle->state)->period, 100 * reflection);
+    const sb_wave_facts *facts = paddle->kind->facts(paddle->state);
+    printf("    absorbs within %.3g m of its law; predicted reflection at %.4g s %.2g %%; forgets levels in %.3g s\n",
+           maker->law.reach, facts->period, 100 * reflection, 1 / facts->slow);
 }
 
 static void print_train(void *context, const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)

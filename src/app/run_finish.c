@@ -171,8 +171,9 @@ static sb_absorption *find_absorptions(run *r)
         if (!all) return NULL;
         all[b] = one;
         sb_runlog_event(r->log, "absorber",
-                        "%s: %.4g m from its law at the end, at most %.4g m; %llu steps at its reach",
-                        r->model.bodies[b].name, one.offset, one.farthest, (unsigned long long)one.limited);
+                        "%s: %.4g m from its law at the end, at most %.4g m; mean of the last ten periods %.3g m; %llu "
+                        "steps at its reach",
+                        r->model.bodies[b].name, one.offset, one.farthest, one.drift, (unsigned long long)one.limited);
         if (one.limited > 0)
             sb_run_warn(r,
                         "the absorbing paddle \"%.63s\" was stopped at its reach in %llu steps, in which it reflected "

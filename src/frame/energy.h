@@ -45,6 +45,9 @@ typedef struct sb_absorption {
     uint64_t limited;        /* steps in which its reach stopped it; of plates, their sum */
     uint64_t plates;         /* push-plates, of which offset is the mean; 0: the paddle is one */
     double apart;            /* m, between the farthest and the nearest plate at the end of the step */
+    /* m, mean of offset over the last whole ten periods (before them since the start), and its largest magnitude over
+       whole ten periods; of plates the mean, and the largest of any. */
+    double drift, drift_most;
 } sb_absorption;
 
 #endif

@@ -71,6 +71,13 @@ typedef struct sb_energy_record {
     double momentum_imbalance;             /* largest value of any step since the last row */
 } sb_energy_record;
 
+/* A paddle that absorbs, at the end of the first step that passed a multiple of the interval. */
+typedef struct sb_absorber_record {
+    size_t body;          /* index into the model's bodies */
+    double time;          /* s */
+    double offset, drift; /* m, as in sb_absorption */
+} sb_absorber_record;
+
 /* All records of the last step; the arrays are valid until the next one. */
 typedef struct sb_measure_records {
     size_t force_count, gauge_count, probe_count, flow_count, runup_count, energy_count;
@@ -84,6 +91,8 @@ typedef struct sb_measure_records {
     const sb_reflection_record *reflections;
     size_t water_count;
     const sb_water_record *waters;
+    size_t absorber_count;
+    const sb_absorber_record *absorbers;
 } sb_measure_records;
 
 /* Totals of one body over the whole run. */

@@ -5,8 +5,9 @@
 #include "measure/state.h"
 
 static const size_t record_size[LISTS] = {
-    sizeof(sb_force_record), sizeof(sb_gauge_record),  sizeof(sb_probe_record),      sizeof(sb_flow_record),
-    sizeof(sb_runup_record), sizeof(sb_energy_record), sizeof(sb_reflection_record), sizeof(sb_water_record)};
+    sizeof(sb_force_record),      sizeof(sb_gauge_record), sizeof(sb_probe_record),
+    sizeof(sb_flow_record),       sizeof(sb_runup_record), sizeof(sb_energy_record),
+    sizeof(sb_reflection_record), sizeof(sb_water_record), sizeof(sb_absorber_record)};
 
 static void *append(sb_measure *measure, int kind)
 {
@@ -173,6 +174,18 @@ static sb_status record_energy(sb_measure *measure, const sb_sim *sim, sb_error 
     return SB_OK;
 }
 
+static sb_status record_absorbers(sb_measure *measure, const sb_sim *sim, sb_error *error)
+{
+    for (size_t b = 0; b < measure->model->body_count; b++) {
+        const sb_absorption one = sb_sim_absorption(sim, b);
+        if (!one.absorbs) continue;
+        sb_absorber_record *record = append(measure, ABSORBERS);
+        if (!record) return sb_fail_memory(error, "records of absorbing paddles");
+        *record = (sb_absorber_record){b, sb_sim_report(sim)->time, one.offset, one.drift};
+    }
+    return SB_OK;
+}
+
 static sb_status record_layers(sb_measure *measure, const sb_measure_view *view, sb_error *error)
 {
     for (size_t b = 0; b < measure->model->body_count; b++) {
@@ -209,7 +222,9 @@ static void publish(sb_measure *measure)
                                            .reflection_count = lists[REFLECTIONS].count,
                                            .reflections = lists[REFLECTIONS].items,
                                            .water_count = lists[WATERS].count,
-                                           .waters = lists[WATERS].items};
+                                           .waters = lists[WATERS].items,
+                                           .absorber_count = lists[ABSORBERS].count,
+                                           .absorbers = lists[ABSORBERS].items};
 }
 
 static void note_skipped(sb_measure *measure)
@@ -297,6 +312,7 @@ sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, sb_sim
     if (status == SB_OK) status = record_flows(made, made->time, 0, error);
     if (status == SB_OK) status = record_layers(made, &view, error);
     if (status == SB_OK) status = record_energy(made, sim, error);
+    if (status == SB_OK) status = record_absorbers(made, sim, error);
     if (status != SB_OK) {
         sb_measure_destroy(made);
         return status;
@@ -389,6 +405,7 @@ sb_status sb_measure_step(sb_measure *measure, const sb_sim *sim, sb_error *erro
         status = record_boundary(measure, sim, (double)measure->next * measure->interval, error);
     if (status == SB_OK && any) status = record_layers(measure, &view, error);
     if (status == SB_OK && any) status = record_energy(measure, sim, error);
+    if (status == SB_OK && any) status = record_absorbers(measure, sim, error);
     advance(measure, sim);
     publish(measure);
     return status;

@@ -11,7 +11,7 @@ typedef struct list {
     size_t count, capacity;
 } list;
 
-enum { FORCES, GAUGES, PROBES, FLOWS, RUNUPS, ENERGIES, REFLECTIONS, WATERS, LISTS };
+enum { FORCES, GAUGES, PROBES, FLOWS, RUNUPS, ENERGIES, REFLECTIONS, WATERS, ABSORBERS, LISTS };
 
 /* Impulses at the creation, at the last multiple of the interval and at the last step's end. */
 typedef struct body_state {

@@ -13,8 +13,8 @@
 typedef struct sb_csv sb_csv;
 
 /* Creates forces.csv, gauges.csv, probes.csv, energy.csv and, when the scene has them,
-   overtopping.csv, runup.csv, reflections.csv and record.csv in the directory (which exists). scene and model must
-   outlive it. SB_FAILED names the file and the system's reason. */
+   overtopping.csv, runup.csv, reflections.csv, record.csv and absorbers.csv in the directory (which
+   exists). scene and model must outlive it. SB_FAILED names the file and the system's reason. */
 sb_status sb_csv_open(const char *directory, const sb_scene *scene, const sb_model *model, sb_csv **csv,
                       sb_error *error);
 

@@ -215,6 +215,28 @@ static void write_waters(FILE *stream, const sb_scene *scene, const sb_model *mo
     for (int j = 0; j < SB_RECORD_LAYERS; j++) put(stream, row->velocity[j].z);
 }
 
+static bool has_absorbers(const sb_scene *scene)
+{
+    bool any = false;
+    for (size_t i = 0; i < scene->wavemaker_count; i++) any = any || scene->wavemakers[i].law.absorb;
+    return any;
+}
+
+static size_t count_absorbers(const sb_measure_records *records)
+{
+    return records->absorber_count;
+}
+
+static void write_absorbers(FILE *stream, const sb_scene *scene, const sb_model *model,
+                            const sb_measure_records *records, size_t i)
+{
+    (void)scene;
+    const sb_absorber_record *row = &records->absorbers[i];
+    begin(stream, row->time, model->bodies[row->body].name);
+    put(stream, row->offset);
+    put(stream, row->drift);
+}
+
 const sb_csv_table sb_csv_tables[] = {
     {.name = "forces",
      .header = "time_s,body,Fx_N,Fy_N,Fz_N,Mx_Nm,My_Nm,Mz_Nm,Fx_pressure_N,Fy_pressure_N,"
@@ -276,6 +298,12 @@ const sb_csv_table sb_csv_tables[] = {
      .wanted = has_record,
      .count = count_waters,
      .write = write_waters},
+    {.name = "absorbers",
+     .header = "time_s,body,offset_m,drift_m",
+     .flat_header = "time_s,body,offset_m,drift_m",
+     .wanted = has_absorbers,
+     .count = count_absorbers,
+     .write = write_absorbers},
 };
 _Static_assert(sizeof sb_csv_tables == SB_CSV_TABLES * sizeof *sb_csv_tables, "one mark per table");
 

@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-enum { SB_CSV_TABLES = 8 };
+enum { SB_CSV_TABLES = 9 };
 
 typedef struct sb_csv_table {
     const char *name;                      /* <name>.csv */

@@ -53,6 +53,17 @@ double complex sb_paddle_absorbing(sb_paddle_motion motion, double omega, double
     return -omega / CMPLX(gain * cos(kx), lag);
 }
 
+/* The face is at xi, and by linear theory g eta_x = -xi'' = -dV/dt there, so that the mean beside the moving face is
+   <xi eta_x> = <V^2>/g above that at a place. There, Bernoulli's equation at the surface, g <eta> = C - <u^2 + w^2>/2 -
+   <eta w_t>, has u = V, w = eta_t and <eta eta_tt> = -<eta_t^2>. Far from the paddle it gives <eta> = C/g - k
+   sum a^2/(2 sinh 2kd) for waves in both directions; with the mean level 0 that is C. Sum: <V^2>/(2g) + omega^2/(2g)
+   <eta^2> + k/sinh 2kd <eta^2>. */
+double sb_paddle_mean_of_square(double number, double depth)
+{
+    const double kd = number * depth;
+    return number * (0.5 * tanh(kd) + 1 / sinh(2 * kd));
+}
+
 /* Both filters of the slow part. */
 static double complex without_slow(double slow, double omega)
 {
@@ -64,7 +75,7 @@ static double complex without_slow(double slow, double omega)
 sb_absorbing_filter sb_absorbing_filter_of(sb_paddle_motion motion, const sb_band_part *band, size_t count, double slow,
                                            double depth, double gravity, double distance)
 {
-    double alpha = 0, weight = 0, beta = 0, square = 0;
+    double alpha = 0, weight = 0, beta = 0, omega_square = 0, square = 0;
     for (size_t i = 0; i < count; i++) {
         const double omega = band[i].omega, w = band[i].weight;
         const double complex inverse =
@@ -72,11 +83,16 @@ sb_absorbing_filter sb_absorbing_filter_of(sb_paddle_motion motion, const sb_ban
         alpha += w * creal(inverse);
         weight += w;
         beta += w * omega * cimag(inverse);
-        square += w * omega * omega;
+        omega_square += w * omega * omega;
+        square += w * sb_paddle_mean_of_square(sb_wave_number(2 * M_PI / omega, depth, gravity), depth);
     }
     alpha /= weight;
-    beta /= square;
-    return (sb_absorbing_filter){.gain = 1 / alpha, .pole = beta > 0 ? alpha / beta : (double)INFINITY, .slow = slow};
+    beta /= omega_square;
+    return (sb_absorbing_filter){.gain = 1 / alpha,
+                                 .pole = beta > 0 ? alpha / beta : (double)INFINITY,
+                                 .slow = slow,
+                                 .square = square / weight,
+                                 .gravity = gravity};
 }
 
 /* With an incident wave a at the paddle, its reflection a + i W X, and the surface at the distance x

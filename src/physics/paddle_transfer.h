@@ -33,12 +33,18 @@ typedef struct sb_band_part {
 } sb_band_part;
 
 /* velocity = -gain pole/(s + pole) of the surface without its slow part, which two filters s/(s + slow) remove. gain
-   and pole are positive, so that the filter takes energy at all frequencies. */
+   and pole are positive, so that the filter takes energy at all frequencies above `slow`. */
 typedef struct sb_absorbing_filter {
-    double gain; /* 1/s */
-    double pole; /* 1/s; infinity: no lag */
-    double slow; /* 1/s */
+    double gain;    /* 1/s */
+    double pole;    /* 1/s; infinity: no lag */
+    double slow;    /* 1/s */
+    double square;  /* 1/m, sb_paddle_mean_of_square of the band */
+    double gravity; /* m/s^2 */
 } sb_absorbing_filter;
+
+/* Mean of second order, in m, that the surface beside a moving paddle has above the level of a closed flume that is
+   full of waves: <V^2>/(2 g) + square <eta^2>, V the paddle's velocity. Returns `square`, in 1/m, for a wave number. */
+double sb_paddle_mean_of_square(double number, double depth);
 
 /* Fits the filter to a band by least squares of its inverse, weighted by energy; one frequency is met exactly. */
 sb_absorbing_filter sb_absorbing_filter_of(sb_paddle_motion motion, const sb_band_part *band, size_t count, double slow,

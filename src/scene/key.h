@@ -56,7 +56,7 @@ typedef struct sb_key {
     const char *doc;
 } sb_key;
 
-/* A key of earlier versions, which is refused with the reason. */
+/* A key that there is not, but that users may expect: it is refused with the reason. */
 typedef struct sb_removed_key {
     const char *name, *reason;
 } sb_removed_key;

@@ -40,6 +40,14 @@ size_t sb_scene_plates(const sb_scene *scene, const sb_wavemaker_use *use, sb_pl
     return row->count;
 }
 
+/* Length within the box of a line along a horizontal direction, m. */
+static double thickness_along(const sb_body *body, sb_vec3 direction)
+{
+    const sb_vec3 size = sb_sub(body->max, body->min);
+    const double x = fabs(direction.x), y = fabs(direction.y);
+    return fmin(x > 0 ? size.x / x : (double)INFINITY, y > 0 ? size.y / y : (double)INFINITY);
+}
+
 /* A flap is a stack of rows: each moves along the direction by its share of the motion at the still level. */
 static sb_status check_flap(sb_reader *reader, const sb_yaml *map, const sb_wavemaker_use *use, const sb_body *body)
 {
@@ -54,6 +62,11 @@ static sb_status check_flap(sb_reader *reader, const sb_yaml *map, const sb_wave
                               use->body);
     if (!(fabs(use->direction.z) < 1e-9))
         return sb_reader_fail(reader, map, "direction", "is not horizontal, expected one along x or y for a flap");
+    if (thickness_along(body, use->direction) < 0.5 * scene->resolution)
+        return sb_reader_fail(reader, map, "motion",
+                              "the box of the flap is %.3g m thick, and water passes a plate thinner than half the "
+                              "spacing, expected at least %.3g m",
+                              thickness_along(body, use->direction), 0.5 * scene->resolution);
     if (!scene->sea.present)
         return sb_reader_fail(
             reader, map, "motion",

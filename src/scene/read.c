@@ -64,7 +64,7 @@ static sb_status refuse_unknown(sb_reader *reader, const sb_yaml *map, const sb_
         sb_yaml place = {.line = item->line > 0 ? item->key_line : 0, .column = item->key_column};
         const char *near = sb_table_nearest(table, item->key), *reason = removal_reason(table, item->key);
         path_push(reader, item->key, 0);
-        if (reason) return sb_reader_fail(reader, &place, NULL, "this key was removed: %s", reason);
+        if (reason) return sb_reader_fail(reader, &place, NULL, "%s", reason);
         if (near) return sb_reader_fail(reader, &place, NULL, "unknown key, did you mean %s?", near);
         char known[400] = "";
         size_t used = 0;

@@ -124,7 +124,7 @@ static const sb_key keys[] = {
 /* clang-format on */
 
 static const sb_removed_key removed[] = {
-    {"sleep", "still water is always computed; delete the key"},
+    {"sleep", "this key was removed: still water is always computed; delete the key"},
     {NULL, NULL},
 };
 

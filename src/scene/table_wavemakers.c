@@ -33,7 +33,14 @@ static const sb_key plate_keys[] = {
 };
 /* clang-format on */
 
-static const sb_table plate_table = {SB_KEY_ROWS(plate_keys), .size = sizeof(sb_plate_settings)};
+static const sb_removed_key no_plate_keys[] = {
+    {"height", "plates above each other would read the same surface and move as one, expected no height: a plate "
+               "reaches over the height of its paddle"},
+    {NULL, NULL},
+};
+
+static const sb_table plate_table = {SB_KEY_ROWS(plate_keys), .removed = no_plate_keys,
+                                     .size = sizeof(sb_plate_settings)};
 
 /* clang-format off */
 static const sb_key keys[] = {

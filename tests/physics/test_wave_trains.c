@@ -297,8 +297,9 @@ static void spectra_are_absorbed(void **state)
         sb_error error = {0};
         paddle.state = train;
         if (sb_paddle_fit_absorption(&p, &paddle, distance, &filter, &error) != SB_OK) fail_msg("%s", error.text);
-        const sb_absorbing_filter plain = {omega / sb_paddle_gain(SB_PADDLE_PISTON, kd / p.depth, p.depth),
-                                           (double)INFINITY, filter.slow};
+        const sb_absorbing_filter plain = {.gain = omega / sb_paddle_gain(SB_PADDLE_PISTON, kd / p.depth, p.depth),
+                                           .pole = (double)INFINITY,
+                                           .slow = filter.slow};
         const double r = reflected_of(train, &filter, distance), other = reflected_of(train, &plain, distance);
         printf("kd %.3g at the peak: %.3g %% reflected, %.3g %% by the gain alone\n", kd, 100 * r, 100 * other);
         assert_true(r < 0.5 * other);

@@ -16,6 +16,13 @@ SB_INLINE double sb_ledger_work(sb_f4 from, sb_f4 to, sb_f4 start, sb_f4 end)
     return work;
 }
 
+/* The velocity at the step's start. That of the state is the same but in the second half of an explicit step, where it
+   is that of the middle. */
+SB_INLINE sb_f4 sb_ledger_start(const sb_sim *sim, size_t i)
+{
+    return sim->state.step_begin ? sim->state.step_begin[i] : sim->state.velocity[i];
+}
+
 /* Running sums of one group, filled in the loop that moves its particles: a separate pass would cost twice as much. */
 typedef double sb_d4 __attribute__((vector_size(32)));
 typedef struct sb_ledger_tally {

@@ -23,7 +23,8 @@ static double top_speed(const sb_sim *sim)
         double moved =
             sb_paddle_displacement(paddle, sim->state.time + probe) - sb_paddle_displacement(paddle, sim->state.time);
         const struct sb_absorber *absorber = sim->walls.moving[m].absorber;
-        speed = fmax(speed, fabs(sim->walls.moving[m].share * moved) / probe + (absorber ? fabs(absorber->speed) : 0));
+        speed = fmax(speed,
+                     fabs(sim->walls.moving[m].share * moved) / probe + (absorber ? fabs(absorber->state.speed) : 0));
     }
     return speed;
 }

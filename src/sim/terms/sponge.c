@@ -45,9 +45,7 @@ static double drain(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX
     for (int k = 0; k < 4; k++) terms[k] = 0;
     for (size_t i = group->first; i < group->end; i++) {
         const sb_f4 change = change_of(sim, i);
-        /* The velocity of an explicit step in its second half is that of its middle. */
-        const sb_f4 start = sim->state.step_begin ? sim->state.step_begin[i] : sim->state.velocity[i];
-        terms[0] += sb_ledger_work((sb_f4){0}, change, start, sim->work.end_velocity[i]);
+        terms[0] += sb_ledger_work((sb_f4){0}, change, sb_ledger_start(sim, i), sim->work.end_velocity[i]);
         for (int axis = 0; axis < 3; axis++) terms[1 + axis] += (double)change[axis];
     }
     return 0;

@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-/* Half-width in spacings of the column in which water is measured, as is its distance: it begins at the face. */
-static const double HALF = SB_ABSORB_DISTANCE;
+/* Periods over which the drift is a mean. */
+static const double DRIFT_PERIODS = 10;
 
 /* The face from the body's boundary particles, which lie behind it by the wall's offset. */
 static void find_face(const sb_sim *sim, const sb_model_body *body, sb_vec3 direction, sb_absorber *a)
@@ -36,6 +36,7 @@ sb_status sb_absorber_create(sb_sim *sim, size_t body, sb_moving_body *moving, s
     if (!a) return sb_fail_memory(error, "an absorbing paddle");
     a->distance = SB_ABSORB_DISTANCE * sim->model->spacing;
     a->reach = use->law.reach;
+    a->period = moving->paddle.kind->facts(moving->paddle.state)->period;
     if (sim->model->bodies[body].plates > 0)
         sb_plate_find(sim, body, use->direction, a);
     else
@@ -49,12 +50,17 @@ double sb_column_weight(double x)
     return (far * far * far - 4 * near * near * near) / 6;
 }
 
-/* Volume of the water beside the face over its width: the depth, weighted over 2 HALF spacings. */
+double sb_column_window(double x)
+{
+    return 0.25 * (sb_column_weight(x - 1) + 2 * sb_column_weight(x) + sb_column_weight(x + 1));
+}
+
+/* Volume of the water beside the face over its width: the depth, weighted over the window. */
 static double column(sb_sim *sim, const sb_moving_body *moving)
 {
     const sb_absorber *a = moving->absorber;
     const sb_vec3 d = moving->direction;
-    const double width = 0.5 * HALF * sim->model->spacing, from = a->face + moving->displacement + a->distance;
+    const double width = sim->model->spacing, from = a->face + moving->displacement + a->distance;
     const bool flat = sim->constant.dimension == 2;
     const size_t n = sim->state.n;
     sb_exact sum = {0};
@@ -65,9 +71,9 @@ static double column(sb_sim *sim, const sb_moving_body *moving)
         for (size_t i = 0; i < n; i++) {
             const sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
             const double ahead = (at.x * d.x + at.y * d.y - from) / width;
-            if (!(fabs(ahead) < 2)) continue;
+            if (!(fabs(ahead) < SB_ABSORB_DISTANCE)) continue;
             const double along = at.x * a->side[0] + at.y * a->side[1];
-            if (flat || (along >= a->from[0] && along <= a->from[1])) sb_exact_add(&own, sb_column_weight(ahead));
+            if (flat || (along >= a->from[0] && along <= a->from[1])) sb_exact_add(&own, sb_column_window(ahead));
         }
         sb_sums_merge(&sum, &own, 1);
     }
@@ -89,27 +95,34 @@ int sb_absorbers_measure(sb_sim *sim)
     return 0;
 }
 
-/* Each filter is advanced exactly for an input that is constant over the step. */
+/* The mean over whole periods, which the displacement by returning waves does not change. */
+static void note_drift(sb_absorber *a, double dt)
+{
+    a->sum += a->state.offset * dt;
+    a->elapsed += dt;
+    const bool whole = a->elapsed >= DRIFT_PERIODS * a->period;
+    if (whole || !a->drifted) a->drift = a->sum / a->elapsed;
+    if (!whole) return;
+    a->drift_most = fmax(a->drift_most, fabs(a->drift));
+    a->drifted = true;
+    a->sum = a->elapsed = 0;
+}
+
 double sb_absorber_advance(sb_sim *sim, sb_moving_body *moving)
 {
     sb_absorber *a = moving->absorber;
-    const double dt = sim->state.time_step, depth = a->depth;
-    if (!a->known) a->still = depth;
+    const double dt = sim->state.time_step, law = moving->displacement - a->state.offset;
+    if (!a->known) a->still = a->depth;
     a->known = true;
-    const double expected = moving->paddle.kind->surface(moving->paddle.state, sim->state.time - moving->paddle.start);
-    const double surface = depth - a->still - expected;
-    a->low += (surface - a->low) * -expm1(-a->filter.slow * dt);
-    a->fast += (surface - a->low - a->fast) * -expm1(-a->filter.pole * dt);
-    a->speed = -a->filter.gain * a->fast - a->filter.slow * a->offset;
-    double next = a->offset + a->speed * dt;
-    if (fabs(next) > a->reach) {
-        next = copysign(a->reach, next);
-        a->speed = (next - a->offset) / dt;
-        a->limited++;
-    }
-    a->offset = next;
-    a->farthest = fmax(a->farthest, fabs(next));
-    return next;
+    const sb_absorbing_input input = {
+        .surface = a->depth - a->still,
+        .expected = moving->paddle.kind->surface(moving->paddle.state, sim->state.time - moving->paddle.start),
+        .law_speed = (moving->next_displacement - law) / dt,
+        .reach = a->reach};
+    if (sb_absorbing_advance(&a->filter, &input, dt, &a->state)) a->limited++;
+    a->farthest = fmax(a->farthest, fabs(a->state.offset));
+    note_drift(a, dt);
+    return a->state.offset;
 }
 
 sb_absorption sb_sim_absorption(const sb_sim *sim, size_t body)
@@ -117,26 +130,36 @@ sb_absorption sb_sim_absorption(const sb_sim *sim, size_t body)
     const uint32_t m = sim->walls.moving_of_body[body];
     const sb_absorber *a = m == UINT32_MAX ? NULL : sim->walls.moving[m].absorber;
     if (!a || a->plate > 0) return (sb_absorption){0};
-    if (a->plates == 0) return (sb_absorption){true, a->offset, a->farthest, a->limited, 0, 0};
+    if (a->plates == 0)
+        return (sb_absorption){.absorbs = true,
+                               .offset = a->state.offset,
+                               .farthest = a->farthest,
+                               .limited = a->limited,
+                               .drift = a->drift,
+                               .drift_most = a->drift_most};
     sb_absorption all = {.absorbs = true, .plates = a->plates};
     double least = (double)INFINITY, most = -(double)INFINITY;
     for (size_t k = 0; k < a->plates; k++) {
         const sb_absorber *one = sim->walls.moving[m + k].absorber;
-        all.offset += one->offset / (double)a->plates;
+        all.offset += one->state.offset / (double)a->plates;
         all.farthest = fmax(all.farthest, one->farthest);
+        all.drift += one->drift / (double)a->plates;
+        all.drift_most = fmax(all.drift_most, one->drift_most);
         all.limited += one->limited;
-        least = fmin(least, one->offset);
-        most = fmax(most, one->offset);
+        least = fmin(least, one->state.offset);
+        most = fmax(most, one->state.offset);
     }
     all.apart = most - least;
     return all;
 }
 
-enum { REALS = 6 };
+enum { REALS = 11 };
 
 static void reals_of(const sb_absorber *a, double reals[REALS])
 {
-    const double all[REALS] = {a->still, a->low, a->fast, a->offset, a->speed, a->farthest};
+    const sb_absorbing_state *s = &a->state;
+    const double all[REALS] = {a->still,    s->mean, s->low,     s->fast,  s->offset,    s->speed,
+                               a->farthest, a->sum,  a->elapsed, a->drift, a->drift_most};
     for (int k = 0; k < REALS; k++) reals[k] = all[k];
 }
 
@@ -148,6 +171,7 @@ void sb_absorbers_save(const sb_sim *sim, sb_archive_out *out)
         if (!a) continue;
         reals_of(a, reals);
         sb_put_flag(out, a->known);
+        sb_put_flag(out, a->drifted);
         sb_put_list(out, reals, REALS, sizeof *reals);
         sb_put_count(out, a->limited);
     }
@@ -160,16 +184,19 @@ void sb_absorbers_load(sb_sim *sim, sb_archive_in *in)
         double reals[REALS] = {0};
         if (!a) continue;
         a->known = sb_take_flag(in);
+        a->drifted = sb_take_flag(in);
         sb_take_list(in, reals, REALS, sizeof *reals);
         a->limited = sb_take_count(in, UINT64_MAX);
-        double *const fields[REALS] = {&a->still, &a->low, &a->fast, &a->offset, &a->speed, &a->farthest};
+        sb_absorbing_state *s = &a->state;
+        double *const fields[REALS] = {&a->still,    &s->mean, &s->low,     &s->fast,  &s->offset,    &s->speed,
+                                       &a->farthest, &a->sum,  &a->elapsed, &a->drift, &a->drift_most};
         for (int k = 0; k < REALS; k++) {
             *fields[k] = isfinite(reals[k]) ? reals[k] : 0;
             if (!isfinite(reals[k]))
                 sb_archive_refuse(in, "an absorbing paddle has the value %g, expected a finite one", reals[k]);
         }
-        if (!(fabs(a->offset) <= a->reach))
-            sb_archive_refuse(in, "an absorbing paddle is %g m from its law, expected at most %g m", a->offset,
+        if (!(fabs(s->offset) <= a->reach))
+            sb_archive_refuse(in, "an absorbing paddle is %g m from its law, expected at most %g m", s->offset,
                               a->reach);
     }
 }

@@ -256,7 +256,7 @@ sb_status sb_stage_walls(sb_sim *sim, sb_error *error)
         sb_moving_body *moving = &sim->walls.moving[m];
         double here = sim->policy->runs ? moving->share * sb_paddle_displacement(&moving->paddle, time) : 0;
         double there = sim->policy->runs ? moving->share * sb_paddle_displacement(&moving->paddle, time + dt) : 0;
-        if (moving->absorber) here += moving->absorber->offset;
+        if (moving->absorber) here += moving->absorber->state.offset;
         moved |= here != moving->displacement;
         moving->displacement = here;
         moving->next_displacement = there;

@@ -3,6 +3,7 @@
 #include "../../check.h"
 #include "base/archive.h"
 #include "sim/tank.h"
+#include "sim/walls/absorber.h"
 
 #include <math.h>
 #include <omp.h>
@@ -23,7 +24,10 @@ typedef struct flume {
     sb_scene scene;
     sb_model model;
     sb_sim *sim;
+    double sum, elapsed, mean; /* of the near paddle's displacement from its law: integral, time, mean of ten periods */
 } flume;
+
+static const double TEN_PERIODS = 23;
 
 static void make(flume *f, bool absorb)
 {
@@ -58,6 +62,10 @@ static double kinetic_until(flume *f, double from, double to)
     int count = 0;
     while (sb_sim_report(f->sim)->time < to) {
         assert_int_equal(tank_steps(f->sim, 1), 0);
+        const double dt = f->sim->state.time_step;
+        f->sum += sb_sim_absorption(f->sim, 0).offset * dt;
+        f->elapsed += dt;
+        if (f->elapsed - dt < TEN_PERIODS) f->mean = f->sum / f->elapsed; /* up to the step that ends them */
         if (sb_sim_report(f->sim)->time < from) continue;
         sum += sb_sim_energy(f->sim).kinetic;
         count++;
@@ -78,6 +86,8 @@ static void waves_between_absorbers_die_out(void **state)
         printf("absorb %d: kinetic energy %.4g, then %.4g J/m; farthest %.3g and %.3g m, at the end %.3g and %.3g m\n",
                absorb, first, last, one.farthest, other.farthest, one.offset, other.offset);
         assert_int_equal(one.absorbs, absorb);
+        if (absorb) printf("drift %.4g m, by the test %.4g m\n", one.drift, f.mean);
+        if (absorb) assert_true(fabs(one.drift - f.mean) < 1e-9 && fabs(one.drift_most - fabs(one.drift)) < 1e-9);
         if (absorb) assert_true(fmax(one.farthest, other.farthest) > 0.01 && one.limited == 0 && other.limited == 0);
         free_flume(&f);
     }
@@ -113,9 +123,22 @@ static void state_is_saved_and_independent_of_threads(void **state)
     free_flume(&g);
 }
 
+/* Rows of particles one spacing apart have the same depth wherever they lie before the face. */
+static void the_window_does_not_see_rows(void **state)
+{
+    (void)state;
+    for (double first = 0; first < 1; first += 0.0625) {
+        double sum = 0;
+        for (int k = -5; k <= 5; k++) sum += sb_column_window(first + k);
+        assert_true(fabs(sum - 1) < 1e-12);
+    }
+    assert_true(sb_column_window(3) == 0 && sb_column_window(2.9) > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_window_does_not_see_rows),
         cmocka_unit_test(waves_between_absorbers_die_out),
         cmocka_unit_test(state_is_saved_and_independent_of_threads),
     };

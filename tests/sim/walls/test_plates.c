@@ -182,7 +182,7 @@ static void unfit_plates_are_refused(void **state)
     } cases[] = {
         {", plates: {width: 0.2}", "at least 3 spacings"},
         {", plates: {width: 0.4}, direction: [1, 1, 0]", "is oblique"},
-        {", plates: {width: 0.4, height: 0.4}", "unknown key"},
+        {", plates: {width: 0.4, height: 0.4}", "would read the same surface"},
         {", plates: {width: -1}", "expected"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {

@@ -4,10 +4,12 @@
 #include "base/random.h"
 #include "check.h"
 #include "physics/tait.h"
+#include "sim/passes/passes.h"
 #include "sim/step/stages.h"
 #include "sim/tank.h"
 #include "sim/terms/turbulence.h"
 #include "sim/twin.h"
+#include "sim/walls/drag.h"
 #include "sim/wcsph/boundary.h"
 #include "sim/wcsph/wcsph.h"
 
@@ -234,6 +236,43 @@ static void all_pairs_give_the_same(void **state)
             }
 }
 
+/* The works of a step are those of velocities at its ends: with opposite ones there is none, whatever the velocity in
+   the middle is. */
+static void works_take_the_velocity_at_the_start(void **state)
+{
+    (void)state;
+    tank t;
+    sb_error error = {0};
+    tank_of_particles(&t, 3, 0.1, sb_vec(1.3, 0.7, 1.2), 1.3, 0.9, 0.05);
+    t.form.particles = false;
+    tank_use(&t, SB_PRESET_WEN);
+    t.scene.numerics.walls = SB_WALLS_PARTICLES;
+    t.scene.numerics.wall_friction = 0.1;
+    for (size_t i = 0; i < t.model.fluid_count; i++) t.model.fluid_velocity[i] = sb_vec(0.3, 0.1, 0);
+    sb_sim *sim = tank_sim(&t);
+    assert_non_null(sim);
+    assert_int_equal(tank_prepare(sim, 0.001), 0);
+    assert_int_equal(sb_stage_wcsph_densities(sim, &error), SB_OK);
+    const sb_wall_drag law = sb_wall_drag_make(sim);
+    assert_true(law.on);
+    assert_int_equal(sb_stage_forces(sim, &error), SB_OK);
+    assert_int_equal(sb_stage_wcsph_rates(sim, &error), SB_OK);
+    double friction[2];
+    for (int same = 0; same < 2; same++) {
+        sb_body_sums sums = {.force = sim->work.body_force};
+        for (size_t i = 0; i < sim->state.n; i++) {
+            sim->work.end_velocity[i] = (sb_f4){0.001f, 0, 0.002f, 0};
+            sim->state.step_begin[i] = sb_splat(same ? 1.0f : -1.0f) * sim->work.end_velocity[i];
+        }
+        assert_int_equal(sim->passes->bodies(sim, &law, &sums), 0);
+        friction[same] = sums.friction;
+    }
+    printf("work of friction: %.3g with opposite velocities, %.3g with equal ones\n", friction[0], friction[1]);
+    assert_true(friction[0] == 0 && friction[1] != 0);
+    sb_sim_destroy(sim);
+    tank_free(&t);
+}
+
 /* With corrected gradients the rate of a linear flow is -rho div v wherever gradients are corrected. */
 static void corrected_rates_are_exact_for_linear_flows(void **state)
 {
@@ -289,6 +328,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_pairs_give_the_same),
+        cmocka_unit_test(works_take_the_velocity_at_the_start),
         cmocka_unit_test(corrected_rates_are_exact_for_linear_flows),
         cmocka_unit_test(the_equation_of_state_can_be_inverted),
     };

@@ -1,5 +1,6 @@
 /* Regular waves in flumes of twelve wavelengths: height, loss of height and wavelength. One scene each. */
 #include "cases.h"
+#include "paddle_case.h"
 #include "physics/cnoidal.h"
 #include "physics/dispersion.h"
 #include "wave_fit.h"
@@ -132,13 +133,7 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
         train_of(&runs[i], heights);
         sb_plot_run(plot, &runs[i], heights);
     }
-    sb_plot_panel(plot, "Surface at two wavelengths", "time (periods)", "over the height aimed at");
-    for (size_t i = 0; i < count; i++) {
-        const sb_wavemaker_parameters *law = &runs[i].scene->wavemakers[0].law;
-        sb_curve *eta = sb_wave_fit_gauge(&runs[i], runs[i].scene->measure.gauges[0].name);
-        sb_curve_map(eta, 1 / law->period, 0, 1 / law->height, 0);
-        sb_plot_run(plot, &runs[i], eta);
-    }
+    sb_paddle_plot(runs, count, "Surface at two wavelengths", runs[0].scene->measure.gauges[0].name, plot);
 }
 
 #define METHOD                                                                                                         \

@@ -1,5 +1,6 @@
 /* A solitary wave from a depth-averaged grid into the particles, and back. */
 #include "cases.h"
+#include "sea_case.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -102,8 +103,7 @@ const sb_case sb_case_sea_nested = {.name = "sea-nested",
                                     .method = METHOD "The coupling is one-way.",
                                     .scene = "sea/nested.yaml",
                                     .headline = "height in the particles",
-                                    .full = {{.resolution = 0.1}, {.resolution = 0.05, .judged = true, .seeds = 3}},
-                                    .quick = {{.resolution = 0.1, .judged = true}},
+                                    SB_SEA_RUNS(NULL),
                                     .what = &(const sides){.both = false},
                                     .evaluate = evaluate,
                                     .plot = plot};
@@ -114,9 +114,7 @@ const sb_case sb_case_sea_two_way = {.name = "sea-two-way",
                                      .method = METHOD "The coupling is two-way; the grid has the same wall.",
                                      .scene = "sea/nested.yaml",
                                      .headline = "height in the grid after it has left",
-                                     .full = {{.resolution = 0.1, .settings = both_ways},
-                                              {.resolution = 0.05, .judged = true, .seeds = 3, .settings = both_ways}},
-                                     .quick = {{.resolution = 0.1, .judged = true, .settings = both_ways}},
+                                     SB_SEA_RUNS(both_ways),
                                      .what = &(const sides){.both = true},
                                      .evaluate = evaluate,
                                      .plot = plot};
@@ -129,9 +127,7 @@ const sb_case sb_case_sea_two_way_unknown = {
     "The coupling is two-way; in the grid the wave goes on, so that all of what\nthe wall reflects is unknown to it.",
     .scene = "sea/nested.yaml",
     .headline = "height in the grid after it has left",
-    .full = {{.resolution = 0.1, .settings = without_wall},
-             {.resolution = 0.05, .judged = true, .seeds = 3, .settings = without_wall}},
-    .quick = {{.resolution = 0.1, .judged = true, .settings = without_wall}},
+    SB_SEA_RUNS(without_wall),
     .what = &(const sides){.both = true},
     .evaluate = evaluate,
     .plot = plot};

@@ -1,6 +1,7 @@
 /* Regular waves through a side of kind sea, which a wall sends back to it. */
 #include "cases.h"
 #include "physics/dispersion.h"
+#include "sea_case.h"
 
 #include <complex.h>
 #include <math.h>
@@ -115,40 +116,35 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
 static const char *const middle[] = {"sea.height=0.1", "sea.period=3.0843", "duration=37.1", NULL};
 static const char *const shorter[] = {"sea.height=0.1", "sea.period=1.7216", "duration=24.2", NULL};
 
-const sb_case sb_case_sea_regular_long = {
-    .name = "sea-regular-0.3",
-    .title = "Regular waves of kd = 0.3 in through a side of kind sea and out again",
-    .targets = TARGETS,
-    .method = METHOD,
-    .scene = "sea/regular.yaml",
-    .headline = "incoming amplitude",
-    .full = {{.resolution = 0.1}, {.resolution = 0.05, .judged = true, .seeds = 3}},
-    .quick = {{.resolution = 0.1, .judged = true}},
-    .evaluate = evaluate,
-    .plot = plot};
+const sb_case sb_case_sea_regular_long = {.name = "sea-regular-0.3",
+                                          .title =
+                                              "Regular waves of kd = 0.3 in through a side of kind sea and out again",
+                                          .targets = TARGETS,
+                                          .method = METHOD,
+                                          .scene = "sea/regular.yaml",
+                                          .headline = "incoming amplitude",
+                                          SB_SEA_RUNS(NULL),
+                                          .evaluate = evaluate,
+                                          .plot = plot};
 
-const sb_case sb_case_sea_regular_middle = {
-    .name = "sea-regular-0.7",
-    .title = "Regular waves of kd = 0.7 in through a side of kind sea and out again",
-    .targets = TARGETS,
-    .method = METHOD,
-    .scene = "sea/regular.yaml",
-    .headline = "incoming amplitude",
-    .full = {{.resolution = 0.1, .settings = middle},
-             {.resolution = 0.05, .judged = true, .seeds = 3, .settings = middle}},
-    .quick = {{.resolution = 0.1, .judged = true, .settings = middle}},
-    .evaluate = evaluate,
-    .plot = plot};
+const sb_case sb_case_sea_regular_middle = {.name = "sea-regular-0.7",
+                                            .title =
+                                                "Regular waves of kd = 0.7 in through a side of kind sea and out again",
+                                            .targets = TARGETS,
+                                            .method = METHOD,
+                                            .scene = "sea/regular.yaml",
+                                            .headline = "incoming amplitude",
+                                            SB_SEA_RUNS(middle),
+                                            .evaluate = evaluate,
+                                            .plot = plot};
 
-const sb_case sb_case_sea_regular_short = {
-    .name = "sea-regular-1.5",
-    .title = "Regular waves of kd = 1.5 in through a side of kind sea and out again",
-    .targets = TARGETS,
-    .method = METHOD,
-    .scene = "sea/regular.yaml",
-    .headline = "incoming amplitude",
-    .full = {{.resolution = 0.1, .settings = shorter},
-             {.resolution = 0.05, .judged = true, .seeds = 3, .settings = shorter}},
-    .quick = {{.resolution = 0.1, .judged = true, .settings = shorter}},
-    .evaluate = evaluate,
-    .plot = plot};
+const sb_case sb_case_sea_regular_short = {.name = "sea-regular-1.5",
+                                           .title =
+                                               "Regular waves of kd = 1.5 in through a side of kind sea and out again",
+                                           .targets = TARGETS,
+                                           .method = METHOD,
+                                           .scene = "sea/regular.yaml",
+                                           .headline = "incoming amplitude",
+                                           SB_SEA_RUNS(shorter),
+                                           .evaluate = evaluate,
+                                           .plot = plot};

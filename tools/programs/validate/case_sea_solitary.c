@@ -1,6 +1,7 @@
 /* A solitary wave that comes in through one side of kind sea and leaves through another. */
 #include "cases.h"
 #include "physics/wave_theory.h"
+#include "sea_case.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -124,17 +125,15 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
 
 static const char *const low[] = {"sea.height=0.1", "duration=18.5", NULL}, *const high[] = {"sea.height=0.5", NULL};
 
-const sb_case sb_case_sea_solitary_low = {
-    .name = "sea-solitary-0.1",
-    .title = "Solitary wave through two sides of kind sea, H/h = 0.1",
-    .targets = TARGETS,
-    .method = METHOD,
-    .scene = "sea/solitary.yaml",
-    .headline = "height",
-    .full = {{.resolution = 0.1, .settings = low}, {.resolution = 0.05, .judged = true, .seeds = 3, .settings = low}},
-    .quick = {{.resolution = 0.1, .judged = true, .settings = low}},
-    .evaluate = evaluate,
-    .plot = plot};
+const sb_case sb_case_sea_solitary_low = {.name = "sea-solitary-0.1",
+                                          .title = "Solitary wave through two sides of kind sea, H/h = 0.1",
+                                          .targets = TARGETS,
+                                          .method = METHOD,
+                                          .scene = "sea/solitary.yaml",
+                                          .headline = "height",
+                                          SB_SEA_RUNS(low),
+                                          .evaluate = evaluate,
+                                          .plot = plot};
 
 const sb_case sb_case_sea_solitary = {.name = "sea-solitary-0.3",
                                       .title = "Solitary wave through two sides of kind sea, H/h = 0.3",
@@ -142,19 +141,16 @@ const sb_case sb_case_sea_solitary = {.name = "sea-solitary-0.3",
                                       .method = METHOD,
                                       .scene = "sea/solitary.yaml",
                                       .headline = "height",
-                                      .full = {{.resolution = 0.1}, {.resolution = 0.05, .judged = true, .seeds = 3}},
-                                      .quick = {{.resolution = 0.1, .judged = true}},
+                                      SB_SEA_RUNS(NULL),
                                       .evaluate = evaluate,
                                       .plot = plot};
 
-const sb_case sb_case_sea_solitary_high = {
-    .name = "sea-solitary-0.5",
-    .title = "Solitary wave through two sides of kind sea, H/h = 0.5",
-    .targets = TARGETS,
-    .method = METHOD,
-    .scene = "sea/solitary.yaml",
-    .headline = "height",
-    .full = {{.resolution = 0.1, .settings = high}, {.resolution = 0.05, .judged = true, .seeds = 3, .settings = high}},
-    .quick = {{.resolution = 0.1, .judged = true, .settings = high}},
-    .evaluate = evaluate,
-    .plot = plot};
+const sb_case sb_case_sea_solitary_high = {.name = "sea-solitary-0.5",
+                                           .title = "Solitary wave through two sides of kind sea, H/h = 0.5",
+                                           .targets = TARGETS,
+                                           .method = METHOD,
+                                           .scene = "sea/solitary.yaml",
+                                           .headline = "height",
+                                           SB_SEA_RUNS(high),
+                                           .evaluate = evaluate,
+                                           .plot = plot};

@@ -1,5 +1,6 @@
 /* What a sponge reflects of regular waves, beside what linear theory predicts. */
 #include "cases.h"
+#include "paddle_case.h"
 #include "wave_fit.h"
 
 #include <math.h>
@@ -33,17 +34,12 @@ static void evaluate(const sb_case_run *run, sb_figures *figures)
                          "linear theory as `shorebreak check` prints it; strength %.4g 1/s", sponge->strength);
     sb_figure_report(figures, "incident height over that aimed at", "", 1, 2 * split.incident / law->height,
                      "first harmonic, 1.65 to 2.27 wavelengths from the paddle");
+    sb_paddle_drift(run, figures);
 }
 
 static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
 {
-    sb_plot_panel(plot, "Surface at 2.27 wavelengths", "time (periods)", "over the height aimed at");
-    for (size_t i = 0; i < count; i++) {
-        const sb_wavemaker_parameters *law = &runs[i].scene->wavemakers[0].law;
-        sb_curve *eta = sb_wave_fit_gauge(&runs[i], "a4");
-        sb_curve_map(eta, 1 / law->period, 0, 1 / law->height, 0);
-        sb_plot_run(plot, &runs[i], eta);
-    }
+    sb_paddle_plot(runs, count, "Surface at 2.27 wavelengths", "a4", plot);
 }
 
 #define METHOD                                                                                                         \

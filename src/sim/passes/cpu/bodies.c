@@ -84,7 +84,7 @@ static void add_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push, f
 /* Resolves contact of particle i; the bodies receive the reactions. */
 SB_APART void contact(sb_sim *sim, size_t i, forces *to, double works[WORKS])
 {
-    const sb_f4 start = sim->state.velocity[i];
+    const sb_f4 start = sb_ledger_start(sim, i);
     sb_f4 velocity = sim->work.end_velocity[i];
     sb_contact_push pushes[SB_CONTACT_PUSHES_MAX];
     const size_t count = sb_contact_resolve(sim, i, &velocity, pushes);
@@ -106,7 +106,7 @@ SB_APART void contact(sb_sim *sim, size_t i, forces *to, double works[WORKS])
 /* The same at facets. */
 SB_APART void contact_facets(sb_sim *sim, const sb_group *group, size_t i, forces *to, double works[WORKS])
 {
-    const sb_f4 start = sim->state.velocity[i];
+    const sb_f4 start = sb_ledger_start(sim, i);
     const float to_quanta = (float)(sim->state.time_step / sim->space.quantum);
     const double scale = -(double)sim->constant.mass / sim->state.time_step;
     sb_f4 velocity = sim->work.end_velocity[i];
@@ -177,7 +177,6 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, forc
 SB_MULTIVERSION
 static void do_group(sb_sim *sim, const sb_group *group, const sb_wall_drag *law, forces *to)
 {
-    const sb_f4 *velocity = sim->state.velocity; /* at the step's start */
     double works[WORKS] = {0};
     const uint32_t records = sb_around_count(sim, group);
     sb_pull pulls[SB_AROUND_MAX];
@@ -196,7 +195,7 @@ static void do_group(sb_sim *sim, const sb_group *group, const sb_wall_drag *law
         const sb_f4 drag = react(sim, i, law->on ? law : NULL, to);
         if (recorded) record_pairs(sim, i);
         if (!sim->needs.images) contact(sim, i, to, works);
-        if (law->on) works[0] += sb_ledger_work((sb_f4){0}, drag, velocity[i], sim->work.end_velocity[i]);
+        if (law->on) works[0] += sb_ledger_work((sb_f4){0}, drag, sb_ledger_start(sim, i), sim->work.end_velocity[i]);
     }
     if (!beside_wall) return;
     for (int k = 0; k < WORKS; k++) sb_exact_add(&to->works[k], works[k]);

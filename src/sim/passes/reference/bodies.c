@@ -96,7 +96,7 @@ static void react_images(const sb_sim *sim, const sb_indices *around, size_t i, 
 /* Contact with facets. */
 static void contact_facets(sb_sim *sim, const sb_group *group, size_t i, sb_body_sums *total)
 {
-    const sb_f4 start = sim->state.velocity[i], before = sim->work.end_velocity[i];
+    const sb_f4 start = sb_ledger_start(sim, i), before = sim->work.end_velocity[i];
     const double dt = sim->state.time_step;
     const sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
     sb_f4 velocity = before;
@@ -127,13 +127,13 @@ static void react(sb_sim *sim, size_t i, const sb_wall_drag *law, sb_body_sums *
         drag = sb_add(drag, own);
         act(sim, i, wall.entry, sb_scale(wall.offset, mass * q * wall.slope), sb_scale(own, -mass), total->force);
     }
-    const sb_vec3 both = sb_add(sb_vector_of(sim->state.velocity[i]), sb_vector_of(sim->work.end_velocity[i]));
+    const sb_vec3 both = sb_add(sb_vector_of(sb_ledger_start(sim, i)), sb_vector_of(sim->work.end_velocity[i]));
     if (law->on) total->friction += 0.5 * sb_dot(drag, both);
 }
 
 static void contact(sb_sim *sim, size_t i, sb_body_sums *total)
 {
-    const sb_f4 start = sim->state.velocity[i], before = sim->work.end_velocity[i];
+    const sb_f4 start = sb_ledger_start(sim, i), before = sim->work.end_velocity[i];
     sb_contact_push pushes[SB_CONTACT_PUSHES_MAX];
     sb_f4 velocity = before;
     const size_t count = sb_contact_resolve(sim, i, &velocity, pushes);
