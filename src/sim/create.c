@@ -275,6 +275,7 @@ size_t sb_sim_bytes(const sb_sim *sim)
     for (int s = 0; s < SB_WALL_SETS; s++)
         bytes += sb_cells_bytes(&sim->walls.set[s].cells) + sim->walls.set[s].count * WALL_BYTES +
                  (sim->walls.set[s].near_mask + 1) * 8;
+    bytes += sim->walls.share.count * WALL_BYTES;
     bytes += sim->walls.boundary.count * (4 * sizeof(float) + sizeof(uint32_t));
     return bytes + sim->walls.rest.count * WALL_BYTES;
 }

@@ -102,6 +102,9 @@ sb_status sb_domains_migrate(sb_sim *sim, sb_error *error);
 
 /* halo_plan.c: makes the plan of what this rank sends. Returns 0, or -1 without memory. */
 int sb_domains_plan_sends(sb_sim *sim);
+/* Finds the ranks, this one included, whose groups read the cell of `at`, images beyond periodic sides aside. Returns
+   their number. */
+size_t sb_domains_readers(const sb_sim *sim, sb_record at, int rank[SB_RANKS_MAX]);
 
 /* halo.c */
 sb_status sb_domains_make_ghosts(sb_sim *sim, sb_error *error);
