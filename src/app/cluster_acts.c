@@ -33,7 +33,9 @@ static sb_status act_build(run *r, const order *given, sb_error *error)
     (void)given;
     if (several && estimates) sb_room_share(r->cluster.ranks->count);
     sb_status status = sb_fit_check(r->scene, error);
-    if (status == SB_OK) status = sb_model_build_for(r->scene, estimates ? sb_room_needed : NULL, &r->model, error);
+    if (status == SB_OK)
+        status = sb_model_build_part(r->scene, estimates ? sb_room_needed : NULL, sb_ranks_own(r->cluster.ranks),
+                                     sb_ranks_count(r->cluster.ranks), &r->model, error);
     if (several) status = sb_world_agree(r->cluster.ranks, status, error);
     if (status != SB_OK) return status;
     if (estimates) status = sb_room_check(r->scene, &r->model, error);

@@ -125,28 +125,25 @@ static double map_bytes(const sb_scene *scene)
 static double node_bytes(const sb_scene *scene, const sb_model *model)
 {
     enum { EACH_NODE_BYTES = 88, MARGIN = 10 };
-    if (!(scene->fluid.surface_tension > 0) || !model->fluid_position) return 0;
-    sb_vec3 low = model->fluid_position[0], high = low;
-    for (size_t i = 1; i < model->fluid_count; i++) {
-        low = sb_min(low, model->fluid_position[i]);
-        high = sb_max(high, model->fluid_position[i]);
-    }
+    sb_vec3 low, high;
+    if (!(scene->fluid.surface_tension > 0) || !sb_model_extent(model, &low, &high)) return 0;
     const double width = 0.5 * scene->numerics.support * scene->resolution;
     const sb_vec3 size = sb_sub(high, low);
     const double across = scene->dimensions == 2 ? 1 : size.y / width + MARGIN;
     return EACH_NODE_BYTES * (size.x / width + MARGIN) * across * (size.z / width + MARGIN);
 }
 
-/* The model, as the program itself. */
-static double model_bytes(const sb_model *model)
+/* The model, in all ranks of this host. Boundary particles are whole in each. */
+static double model_bytes(const sb_scene *scene, const sb_model *model)
 {
-    return (double)model->fluid_count * MODEL_FLUID_BYTES + (double)model->wall_count * MODEL_WALL_BYTES;
+    const double fluid = (double)model->fluid_count * MODEL_FLUID_BYTES;
+    return (sb_model_divides(scene) ? 1 : sharing) * fluid + sharing * (double)model->wall_count * MODEL_WALL_BYTES;
 }
 
-/* What each rank of a run holds whole, however many there are. */
+/* What each rank of a run holds whole besides the model, however many there are. */
 static double whole_bytes(const sb_scene *scene, const sb_model *model)
 {
-    return PROGRAM_BYTES + model_bytes(model) + map_bytes(scene) + foam_bytes(scene) + node_bytes(scene, model) +
+    return PROGRAM_BYTES + map_bytes(scene) + foam_bytes(scene) + node_bytes(scene, model) +
            (sb_scene_nested(scene) ? sb_grid_bytes(scene) : 0);
 }
 
@@ -158,7 +155,8 @@ double sb_room_needed(const sb_scene *scene, const sb_model *model)
     const double fluid = FLUID_BYTES - MODEL_FLUID_BYTES + (tense ? TENSION_BYTES : 0) + (steady ? STEADY_BYTES : 0) +
                          PAIR_BYTES * count_neighbours(scene) + frame * count_frames(scene, model) +
                          (scene->stream.enabled ? STREAM_BYTES : 0);
-    return sharing * whole_bytes(scene, model) + picture_bytes(scene, model) + foam_bytes_beside(scene, model) +
+    return model_bytes(scene, model) + sharing * whole_bytes(scene, model) + picture_bytes(scene, model) +
+           foam_bytes_beside(scene, model) +
            (double)model->fluid_count * (fluid + IMPULSE_BYTES * (double)model->body_count) +
            sb_room_ghosts(scene, model) * GHOST_BYTES + FRAME_BYTES * count_drawn(scene, model) * (MOST_WAITING + 3);
 }
@@ -166,7 +164,7 @@ double sb_room_needed(const sb_scene *scene, const sb_model *model)
 sb_status sb_room_check(const sb_scene *scene, const sb_model *model, sb_error *error)
 {
     const double needed = sb_room_needed(scene, model), there = (double)sb_memory_available();
-    const double held = sharing * model_bytes(model);
+    const double held = model_bytes(scene, model);
     if (!(there > 0) || needed <= (1 - SB_MEMORY_SPARE) * (held + there)) return SB_OK;
     return sb_fail(error, SB_FAILED,
                    "needs about %.3g GB of memory for %zu fluid and %zu boundary particles, and %.3g GB are available, "

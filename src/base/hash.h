@@ -15,20 +15,38 @@ static inline uint64_t sb_hash_mix(uint64_t x)
     return x ^ (x >> 31);
 }
 
-/* Continues `seed` (0 to start) over `length` bytes. */
-static inline uint64_t sb_hash(uint64_t seed, const void *bytes, size_t length)
+/* The three parts of sb_hash, for words of 8 bytes that are not in memory at once: begin with the length in bytes of
+   all, add words, end without a tail (0). */
+static inline uint64_t sb_hash_begin(uint64_t seed, size_t length)
 {
-    const unsigned char *at = bytes;
-    uint64_t hash = sb_hash_mix(seed + 0x9e3779b97f4a7c15u + length);
-    for (; length >= 8; length -= 8, at += 8) {
+    return sb_hash_mix(seed + 0x9e3779b97f4a7c15u + length);
+}
+
+static inline uint64_t sb_hash_words(uint64_t hash, const void *bytes, size_t words)
+{
+    for (const unsigned char *at = bytes; words > 0; words--, at += 8) {
         uint64_t word;
         memcpy(&word, at, 8);
         hash = sb_hash_mix(hash ^ word) + 0x9e3779b97f4a7c15u;
     }
-    uint64_t tail = 0;
-    if (length > 0) /* bytes may be NULL when there are none */
-        memcpy(&tail, at, length);
+    return hash;
+}
+
+static inline uint64_t sb_hash_end(uint64_t hash, uint64_t tail)
+{
     return sb_hash_mix(hash ^ tail);
+}
+
+/* Continues `seed` (0 to start) over `length` bytes. */
+static inline uint64_t sb_hash(uint64_t seed, const void *bytes, size_t length)
+{
+    const size_t words = length / 8;
+    const uint64_t hash = sb_hash_words(sb_hash_begin(seed, length), bytes, words);
+    uint64_t tail = 0;
+    length -= 8 * words;
+    if (length > 0) /* bytes may be NULL when there are none */
+        memcpy(&tail, (const unsigned char *)bytes + 8 * words, length);
+    return sb_hash_end(hash, tail);
 }
 
 /* A hash over bytes that are added piece by piece; it does not depend on how they are divided into pieces. A

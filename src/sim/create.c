@@ -8,6 +8,7 @@
 #include "sim/report/report.h"
 #include "sim/sea/strip.h"
 #include "sim/search/sort.h"
+#include "sim/state/gather.h"
 #include "sim/step/stages.h"
 #include "sim/terms/density_correction.h"
 #include "sim/terms/surface_tension.h"
@@ -30,13 +31,6 @@ static sb_status create_space(sb_sim *sim, sb_error *error)
     return status;
 }
 
-static bool starts_in_motion(const sb_model *model)
-{
-    for (size_t i = 0; i < model->fluid_count; i++)
-        if (sb_norm(model->fluid_velocity[i]) > 0) return true;
-    return false;
-}
-
 static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
 {
     const sb_numerics *n = &scene->numerics;
@@ -57,7 +51,7 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
         .sponge = scene->sponge_count > 0,
         .foam = scene->foam.enabled,
         .settling = settling,
-        .start_velocity = settling && starts_in_motion(model),
+        .start_velocity = settling && sb_model_start_speed(model) > 0,
         .implicit = !wcsph,
         .wcsph = wcsph,
         .dynamic_walls = n->walls == SB_WALLS_DYNAMIC,
@@ -76,30 +70,33 @@ static int allocate(sb_sim *sim, size_t n)
     return sb_work_create(&sim->work, &sim->needs, n, n);
 }
 
+/* The particles of the model with which this domain begins: [from, from + count) of all. The first sort hands over
+   those that are in other domains. */
+static sb_part start_of(const sb_sim *sim)
+{
+    const sb_model_part *part = &sim->model->part;
+    return part->divided ? (sb_part){part->from, part->here} : sb_gather_part(sim, sim->model->fluid_count);
+}
+
+/* Index in the model's arrays of the particle i of all. */
+static size_t entry_of(const sb_model *model, size_t i)
+{
+    return i - model->part.from;
+}
+
 static sb_record place_of(const sb_sim *sim, const void *model, size_t i)
 {
-    return sb_space_record(&sim->space, ((const sb_model *)model)->fluid_position[i]);
-}
-
-/* Whether this domain has the model's particle i at the start. */
-static bool has(const sb_sim *sim, size_t i)
-{
-    return !sim->domains || sb_domains_owns(sim->domains, sb_space_key(&sim->space, place_of(sim, sim->model, i)));
-}
-
-static size_t count_particles(const sb_sim *sim)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < sim->model->fluid_count; i++) count += has(sim, i);
-    return count;
+    const sb_model *m = model;
+    return sb_space_record(&sim->space, m->fluid_position[entry_of(m, i)]);
 }
 
 static void fill_particle(sb_sim *sim, size_t at, size_t i)
 {
     const sb_model *model = sim->model;
-    const sb_vec3 v = model->fluid_velocity[i];
+    const sb_vec3 v = model->fluid_velocity[entry_of(model, i)];
+    const float pressure = (float)model->fluid_pressure[entry_of(model, i)];
     sim->state.position[at] = place_of(sim, model, i);
-    sim->state.velocity[at] = (sb_f4){(float)v.x, (float)v.y, (float)v.z, (float)model->fluid_pressure[i]};
+    sim->state.velocity[at] = (sb_f4){(float)v.x, (float)v.y, (float)v.z, pressure};
     sim->state.id[at] = (uint32_t)i;
     if (sim->state.start_velocity) sim->state.start_velocity[at] = (sb_f4){(float)v.x, (float)v.y, (float)v.z, 0};
 }
@@ -107,20 +104,14 @@ static void fill_particle(sb_sim *sim, size_t at, size_t i)
 static void fill_particles(sb_sim *sim)
 {
     const sb_model *model = sim->model;
-    const size_t n = model->fluid_count;
-    sim->state.next_id = (uint32_t)n;
-    if (!sim->domains) {
+    const sb_part part = start_of(sim);
+    sim->state.next_id = (uint32_t)model->fluid_count;
 #pragma omp parallel for schedule(static)
-        for (size_t i = 0; i < n; i++) fill_particle(sim, i, i);
-        sim->state.n = n;
-    } else
-        for (size_t i = 0; i < n; i++)
-            if (has(sim, i)) fill_particle(sim, sim->state.n++, i);
-    double top = 0;
-    for (size_t i = 0; i < n; i++) top = fmax(top, sb_norm(model->fluid_velocity[i]));
+    for (size_t i = 0; i < part.count; i++) fill_particle(sim, i, part.from + i);
+    sim->state.n = part.count;
     sb_wcsph_begin(sim);
     sb_density_correction_clear(sim);
-    sim->state.max_speed = top;
+    sim->state.max_speed = sb_model_start_speed(model);
 }
 
 /* Divides the particles among the ranks of the run. */
@@ -129,7 +120,8 @@ static sb_status create_domains(sb_sim *sim, sb_error *error)
     if (!sim->ranks) return SB_OK;
     const sb_status status = sb_domains_agree(sim, sb_domains_create(sim, error), error);
     if (status != SB_OK) return status;
-    return sb_domains_cut(sim, place_of, sim->model, sim->model->fluid_count, error);
+    const sb_part part = start_of(sim);
+    return sb_domains_cut_parts(sim, place_of, sim->model, part.from, part.count, error);
 }
 
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_ranks *ranks, sb_sim **sim, sb_error *error)
@@ -156,8 +148,7 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_ranks *
         made->work.pairs.unit = sb_lists_unit(made);
     }
     if (status == SB_OK) status = create_domains(made, error);
-    if (status == SB_OK && allocate(made, count_particles(made)) != 0)
-        status = sb_fail_memory(error, "fluid particles");
+    if (status == SB_OK && allocate(made, start_of(made).count) != 0) status = sb_fail_memory(error, "fluid particles");
     if (status == SB_OK) status = sb_walls_create(made, error);
     if (status == SB_OK) status = sb_strip_create(made, error);
     if (status == SB_OK) status = sb_foam_create(made, error);
@@ -169,6 +160,7 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_ranks *
     fill_particles(made);
     sb_report_skipped(made);
     status = made->exchange->agree(made, sb_stage_sort(made, error), error);
+    if (made->domains) sb_domains_free_buffers(made->domains);
     if (status != SB_OK) {
         sb_sim_destroy(made);
         return status;
@@ -283,6 +275,7 @@ size_t sb_sim_bytes(const sb_sim *sim)
     for (int s = 0; s < SB_WALL_SETS; s++)
         bytes += sb_cells_bytes(&sim->walls.set[s].cells) + sim->walls.set[s].count * WALL_BYTES +
                  (sim->walls.set[s].near_mask + 1) * 8;
+    bytes += sim->walls.share.count * WALL_BYTES;
     bytes += sim->walls.boundary.count * (4 * sizeof(float) + sizeof(uint32_t));
     return bytes + sim->walls.rest.count * WALL_BYTES;
 }

@@ -19,6 +19,7 @@ void sb_fluid_free(sb_fluid *fluid)
     sb_free(fluid->position);
     sb_free(fluid->velocity);
     sb_free(fluid->pressure);
+    sb_fill_source_destroy(fluid->source);
     *fluid = (sb_fluid){0};
 }
 
@@ -57,7 +58,7 @@ static int drop_duplicates(const sb_columns *waters, size_t water_count, const s
         more->velocity[kept] = more->velocity[i];
         more->pressure[kept++] = more->pressure[i];
     }
-    more->count = kept;
+    more->count = more->here = kept;
     sb_sample_set_free(&set);
     return failed;
 }
@@ -75,7 +76,8 @@ static void *join(const void *a, size_t a_count, const void *b, size_t b_count, 
 /* Appends `more` to `fluid` and empties `more`. */
 static int append(sb_fluid *fluid, sb_fluid *more)
 {
-    sb_fluid both = {.count = fluid->count + more->count, .still_depth = fmax(fluid->still_depth, more->still_depth)};
+    const size_t count = fluid->count + more->count;
+    sb_fluid both = {.count = count, .here = count, .still_depth = fmax(fluid->still_depth, more->still_depth)};
     if (fluid->count == 0) {
         sb_fluid_free(fluid);
         *fluid = *more;
@@ -96,19 +98,36 @@ static int append(sb_fluid *fluid, sb_fluid *more)
     return 0;
 }
 
-/* Displaces the particles at random, by at most `jitter` spacings along each axis. */
-static void displace(const sb_scene *scene, sb_fluid *fluid)
+void sb_fluid_displace(const sb_scene *scene, sb_fluid *fluid)
 {
     double size = scene->numerics.jitter * scene->resolution;
     uint64_t seed = scene->numerics.seed;
     if (!(size > 0)) return;
 #pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < fluid->count; ++i) {
-        sb_vec3 *p = fluid->position + i;
+    for (size_t k = 0; k < fluid->here; ++k) {
+        const size_t i = fluid->from + k;
+        sb_vec3 *p = fluid->position + k;
         p->x += size * (2 * sb_random(seed, 3 * i) - 1);
         if (scene->dimensions == 3) p->y += size * (2 * sb_random(seed, 3 * i + 1) - 1);
         p->z += size * (2 * sb_random(seed, 3 * i + 2) - 1);
     }
+}
+
+sb_status sb_columns_fill(const sb_scene *scene, const sb_fill_solid *solids, size_t count, const sb_fluid_box *box,
+                          sb_columns *columns, sb_wave_room *wave, sb_error *error)
+{
+    sb_columns made;
+    sb_status status = sb_columns_build(scene, solids, count, box, &made, error);
+    if (status != SB_OK) return status;
+    for (size_t r = 0; box && r < made.run_count; ++r) made.runs[r].wet = true;
+    if (!box) status = sb_columns_flood(&made, error);
+    if (status != SB_OK) {
+        sb_columns_free(&made);
+        return status;
+    }
+    sb_columns_wave(&made, wave);
+    *columns = made;
+    return SB_OK;
 }
 
 /* Adds the sea (box NULL) or one box. Its columns are appended to `waters`, those of the earlier sea and boxes. */
@@ -118,13 +137,10 @@ static sb_status add_water(const sb_scene *scene, const sb_fill_solid *solids, s
 {
     sb_columns *c = waters + *water_count;
     sb_fluid more = {0};
-    sb_status status = sb_columns_build(scene, solids, count, box, c, error);
+    sb_status status = sb_columns_fill(scene, solids, count, box, c, wave, error);
     if (status != SB_OK) return status;
     ++*water_count;
-    for (size_t r = 0; box && r < c->run_count; ++r) c->runs[r].wet = true;
-    if (!box) status = sb_columns_flood(c, error);
-    if (status == SB_OK) sb_columns_wave(c, wave);
-    if (status == SB_OK) status = sb_columns_particles(c, &more, error);
+    status = sb_columns_particles(c, &more, error);
     if (share) share->room = more.count;
     if (status == SB_OK && fluid->count > 0 &&
         drop_duplicates(waters, *water_count - 1, fluid, scene->resolution, &more))
@@ -135,8 +151,9 @@ static sb_status add_water(const sb_scene *scene, const sb_fill_solid *solids, s
     return status;
 }
 
-sb_status sb_fill_water(const sb_scene *scene, const sb_fill_solid *solids, size_t count, sb_fluid *fluid,
-                        sb_error *error)
+/* Fills the sea and all boxes, and joins their particles. */
+static sb_status fill_all(const sb_scene *scene, const sb_fill_solid *solids, size_t count, sb_fluid *fluid,
+                          sb_error *error)
 {
     sb_fluid made = {0};
     sb_wave_room wave = {.wet = false};
@@ -158,7 +175,19 @@ sb_status sb_fill_water(const sb_scene *scene, const sb_fill_solid *solids, size
     }
     made.boxes = boxes;
     made.wave = wave;
-    displace(scene, &made);
+    sb_fluid_displace(scene, &made);
     *fluid = made;
     return SB_OK;
+}
+
+bool sb_fill_divides(const sb_scene *scene)
+{
+    return scene->box_count + scene->sea.present == 1;
+}
+
+sb_status sb_fill_water(const sb_scene *scene, const sb_fill_solid *solids, size_t count, const sb_fill_share *share,
+                        sb_fluid *fluid, sb_error *error)
+{
+    return share->parts > 1 && sb_fill_divides(scene) ? sb_fill_part(scene, solids, count, share, fluid, error)
+                                                      : fill_all(scene, solids, count, fluid, error);
 }

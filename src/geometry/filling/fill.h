@@ -28,21 +28,40 @@ typedef struct sb_wave_room {
     double extent;    /* m, distance from the crest beyond which half a per cent of the volume lies */
 } sb_wave_room;
 
+/* What places the water of one sea or one box, part by part. */
+typedef struct sb_fill_source sb_fill_source;
+
 /* Fluid particles. Each represents spacing^3 (2D: spacing^2 per metre) of water. Arrays are owned. */
 typedef struct sb_fluid {
-    size_t count;
-    sb_vec3 *position;   /* m */
-    sb_vec3 *velocity;   /* m/s */
-    double *pressure;    /* Pa, hydrostatic below the local surface */
-    double still_depth;  /* m, largest still depth of a column */
-    sb_box_share *boxes; /* one for each box of the scene */
+    size_t count;           /* of all particles */
+    size_t from, here;      /* the arrays have the particles [from, from + here) */
+    sb_vec3 *position;      /* m */
+    sb_vec3 *velocity;      /* m/s */
+    double *pressure;       /* Pa, hydrostatic below the local surface */
+    double still_depth;     /* m, largest still depth of a column */
+    sb_fill_source *source; /* owned; NULL: the arrays have all particles */
+    sb_box_share *boxes;    /* one for each box of the scene */
     sb_wave_room wave;
 } sb_fluid;
 
-/* Fills the scene's sea and boxes. SB_BAD_INPUT gives the place where a sea escapes through an open side, or the
+/* One of `parts` parts of the water, as large as another one. */
+typedef struct sb_fill_share {
+    size_t part, parts; /* parts 0 or 1: the whole */
+} sb_fill_share;
+
+/* Whether the water of a scene can be placed in parts: it is one sea or one box. */
+bool sb_fill_divides(const sb_scene *scene);
+
+/* Fills the scene's sea and boxes, and places a share of the particles if they can be placed in parts, else all.
+   The solids outlive fluid->source. SB_BAD_INPUT gives the place where a sea escapes through an open side, or the
    fault of its seed. The result is the same for any number of threads. On error *fluid is unchanged. */
-sb_status sb_fill_water(const sb_scene *scene, const sb_fill_solid *solids, size_t count, sb_fluid *fluid,
-                        sb_error *error);
+sb_status sb_fill_water(const sb_scene *scene, const sb_fill_solid *solids, size_t count, const sb_fill_share *share,
+                        sb_fluid *fluid, sb_error *error);
+
+/* source.c: places the particles [from, from + here) of all, with the bits that they have if all are placed at once.
+ *fluid: arrays, from, here, count. */
+sb_status sb_fill_place(const sb_fill_source *source, size_t from, size_t here, sb_fluid *fluid, sb_error *error);
+void sb_fill_source_destroy(sb_fill_source *source);
 void sb_fluid_free(sb_fluid *fluid);
 
 #endif

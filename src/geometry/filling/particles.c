@@ -5,8 +5,6 @@
 #include "base/memory.h"
 #include "base/stop.h"
 
-#include <string.h>
-
 /* In spacings: no particle starts nearer than `clearance` to a surface; water thinner than `film` gets no particle. */
 static const double clearance = 0.3, film = 0.25;
 
@@ -110,6 +108,7 @@ static sb_vec3 velocity_at(const sb_columns *c, sb_vec3 at)
     return sb_add(c->velocity, sb_vec(u, 0, w));
 }
 
+/* Places the particles of a run that belong to the fluid's part. at: index of the first one. */
 static void fill_run(const sb_columns *c, int64_t i, int64_t j, const sb_run *run, size_t layers, size_t at,
                      sb_fluid *fluid)
 {
@@ -118,31 +117,34 @@ static void fill_run(const sb_columns *c, int64_t i, int64_t j, const sb_run *ru
     double weight = c->scene->fluid.density * c->scene->fluid.gravity;
     open_part(c, i, j, run, &low, &high);
     for (size_t k = 0; k < layers; ++k, ++at) {
+        if (at < fluid->from || at - fluid->from >= fluid->here) continue;
         sb_vec3 p = sb_columns_center(c, i, j, 0);
         p.z = run->low + ((double)k + 0.5) * step;
         if (!(p.z - margin > low && p.z + margin < high)) p = keep_clear(c, p);
-        fluid->position[at] = p;
-        fluid->velocity[at] = velocity_at(c, p);
-        fluid->pressure[at] = fmax(weight * (sb_columns_surface(c, p.x) - p.z), 0);
+        const size_t to = at - fluid->from;
+        fluid->position[to] = p;
+        fluid->velocity[to] = velocity_at(c, p);
+        fluid->pressure[to] = fmax(weight * (sb_columns_surface(c, p.x) - p.z), 0);
     }
 }
 
 static int allocate(sb_fluid *fluid)
 {
-    fluid->position = sb_alloc_untouched(fluid->count, sizeof *fluid->position);
-    fluid->velocity = sb_alloc_untouched(fluid->count, sizeof *fluid->velocity);
-    fluid->pressure = sb_alloc_untouched(fluid->count, sizeof *fluid->pressure);
+    fluid->position = sb_alloc_untouched(fluid->here, sizeof *fluid->position);
+    fluid->velocity = sb_alloc_untouched(fluid->here, sizeof *fluid->velocity);
+    fluid->pressure = sb_alloc_untouched(fluid->here, sizeof *fluid->pressure);
     return fluid->position && fluid->velocity && fluid->pressure ? 0 : -1;
 }
 
-/* Places all particles. first: index of the first particle of each column. */
+/* Places the particles of the fluid's part. */
 static sb_status place(const sb_columns *c, const size_t *first, sb_fluid *fluid, sb_error *error)
 {
-    const size_t columns = (size_t)(c->nx * c->ny);
+    const size_t columns = (size_t)(c->nx * c->ny), end = fluid->from + fluid->here;
 #pragma omp parallel for schedule(dynamic, 256)
     for (size_t column = 0; column < columns; ++column) {
         int64_t i = (int64_t)column % c->nx, j = (int64_t)column / c->nx;
         size_t at = first[column];
+        if (at >= end || first[column + 1] <= fluid->from) continue;
         for (size_t r = c->begin[column]; r < c->begin[column + 1] && !sb_stop_signal(); ++r) {
             size_t layers = layers_of(c, i, j, c->runs + r);
             if (layers > 0) fill_run(c, i, j, c->runs + r, layers, at, fluid);
@@ -152,31 +154,48 @@ static sb_status place(const sb_columns *c, const size_t *first, sb_fluid *fluid
     return sb_stop_signal() ? sb_stop_fail(error, "while the water was placed") : SB_OK;
 }
 
-sb_status sb_columns_particles(const sb_columns *c, sb_fluid *fluid, sb_error *error)
+sb_status sb_columns_count(const sb_columns *c, size_t **first, double *still_depth, sb_error *error)
 {
-    sb_fluid made = {0};
-    size_t columns = (size_t)(c->nx * c->ny);
-    size_t *first = sb_alloc_untouched(columns + 1, sizeof *first);
-    if (!first) return sb_fail_memory(error, "water");
+    size_t columns = (size_t)(c->nx * c->ny), count = 0;
+    size_t *made = sb_alloc_untouched(columns + 1, sizeof *made);
+    if (!made) return sb_fail_memory(error, "water");
     for (size_t column = 0; column < columns && !sb_stop_signal(); ++column) {
-        first[column] = made.count;
+        made[column] = count;
         for (size_t r = c->begin[column]; r < c->begin[column + 1]; ++r) {
             const sb_run *run = c->runs + r;
-            made.count += layers_of(c, (int64_t)column % c->nx, (int64_t)column / c->nx, run);
-            if (run->wet) made.still_depth = fmax(made.still_depth, c->level - run->low);
+            count += layers_of(c, (int64_t)column % c->nx, (int64_t)column / c->nx, run);
+            if (run->wet) *still_depth = fmax(*still_depth, c->level - run->low);
         }
     }
-    sb_status status = SB_OK;
-    if (sb_stop_signal())
-        status = sb_stop_fail(error, "while the water was placed");
-    else if (allocate(&made))
-        status = sb_fail_memory(error, "water");
-    if (status == SB_OK) status = place(c, first, &made, error);
-    sb_free(first);
+    made[columns] = count;
+    if (sb_stop_signal()) {
+        sb_free(made);
+        return sb_stop_fail(error, "while the water was placed");
+    }
+    *first = made;
+    return SB_OK;
+}
+
+sb_status sb_columns_place(const sb_columns *c, const size_t *first, size_t from, size_t here, sb_fluid *fluid,
+                           sb_error *error)
+{
+    sb_fluid made = {.count = first[c->nx * c->ny], .from = from, .here = here};
+    const sb_status status = allocate(&made) ? sb_fail_memory(error, "water") : place(c, first, &made, error);
     if (status != SB_OK) {
         sb_fluid_free(&made);
         return status;
     }
     *fluid = made;
     return SB_OK;
+}
+
+sb_status sb_columns_particles(const sb_columns *c, sb_fluid *fluid, sb_error *error)
+{
+    size_t *first = NULL;
+    double still_depth = 0;
+    sb_status status = sb_columns_count(c, &first, &still_depth, error);
+    if (status == SB_OK) status = sb_columns_place(c, first, 0, first[c->nx * c->ny], fluid, error);
+    sb_free(first);
+    if (status == SB_OK) fluid->still_depth = still_depth;
+    return status;
 }

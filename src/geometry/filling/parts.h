@@ -63,7 +63,27 @@ sb_status sb_columns_flood(sb_columns *columns, sb_error *error);
    marked. */
 void sb_columns_wave(const sb_columns *columns, sb_wave_room *room);
 
-/* Places the particles of all wet runs, in the order of the columns, and sets still_depth. */
+/* Counts the particles of the wet runs, in the order of the columns. *first: of each column the index of its first one,
+   then their number (owned). *still_depth grows to the largest still depth. */
+sb_status sb_columns_count(const sb_columns *columns, size_t **first, double *still_depth, sb_error *error);
+
+/* Places the particles [from, from + here) of those that were counted. */
+sb_status sb_columns_place(const sb_columns *columns, const size_t *first, size_t from, size_t here, sb_fluid *fluid,
+                           sb_error *error);
+
+/* Places the particles of all wet runs, and sets still_depth. */
 sb_status sb_columns_particles(const sb_columns *columns, sb_fluid *fluid, sb_error *error);
+
+/* source.c: sb_fill_water of a scene whose water can be placed in parts. */
+sb_status sb_fill_part(const sb_scene *scene, const sb_fill_solid *solids, size_t count, const sb_fill_share *share,
+                       sb_fluid *fluid, sb_error *error);
+
+/* fill.c: displaces the particles at random, by at most numerics.jitter spacings along each axis. */
+void sb_fluid_displace(const sb_scene *scene, sb_fluid *fluid);
+
+/* fill.c: finds the columns of the sea (box NULL) or of a box, and marks their wet runs. On error *columns is
+   unchanged. */
+sb_status sb_columns_fill(const sb_scene *scene, const sb_fill_solid *solids, size_t count, const sb_fluid_box *box,
+                          sb_columns *columns, sb_wave_room *wave, sb_error *error);
 
 #endif

@@ -70,21 +70,38 @@ static sb_status check_height(const sb_model *model, const char *what, const cha
    which the depth is measured. */
 static const double DEPTH_SLACK = 1.5, DEPTH_SHARE = 0.05, NEAR = 3;
 
-/* Returns the still-water depth between two positions along a direction; 0: there is no water. */
-static double depth_between(const sb_scene *scene, const sb_model *model, sb_vec3 along, double from, double to)
+/* Water between two positions along a direction. */
+typedef struct stretch {
+    sb_vec3 along;
+    double from, to, lowest;
+} stretch;
+
+static void find_lowest(void *context, const sb_water_piece *piece)
 {
-    double lowest = (double)INFINITY;
-    for (size_t i = 0; i < model->fluid_count; i++) {
-        const sb_vec3 at = model->fluid_position[i];
-        const double where = sb_dot(at, along);
-        if (where >= from && where <= to && at.z < lowest) lowest = at.z;
+    stretch *s = context;
+    for (size_t i = 0; i < piece->count; i++) {
+        const sb_vec3 at = piece->position[i];
+        const double where = sb_dot(at, s->along);
+        if (where >= s->from && where <= s->to && at.z < s->lowest) s->lowest = at.z;
     }
-    return fmax(scene->sea.level - lowest + 0.5 * model->spacing, 0);
 }
 
-static sb_status check_depth(sb_model *model, const char *what, const char *name, double depth, double there,
-                             sb_error *error)
+/* The scene, its solids and the model whose depths are checked. */
+typedef struct checked {
+    const sb_scene *scene;
+    const sb_model_space *space;
+    sb_model *model;
+} checked;
+
+/* Compares a depth with that of the still water within a stretch. */
+static sb_status check_depth(const checked *c, const char *what, const char *name, double depth, sb_vec3 along,
+                             double from, double to, sb_error *error)
 {
+    sb_model *model = c->model;
+    stretch s = {along, from, to, (double)INFINITY};
+    const sb_status status = sb_model_visit_water(c->space, model, find_lowest, &s, error);
+    if (status != SB_OK) return status;
+    const double there = fmax(c->scene->sea.level - s.lowest + 0.5 * model->spacing, 0);
     if (there == 0) return sb_model_warn(model, error, "%s%s: no water is there at t = 0", what, name);
     if (fabs(depth - there) <= fmax(DEPTH_SLACK * model->spacing, DEPTH_SHARE * there)) return SB_OK;
     return sb_model_warn(model, error,
@@ -94,18 +111,18 @@ static sb_status check_depth(sb_model *model, const char *what, const char *name
 }
 
 /* Compares the still-water depth that waves and wave makers assume with the depth of the water there. */
-static sb_status check_depths(const sb_scene *scene, sb_model *model, sb_error *error)
+static sb_status check_depths(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     const sb_initial_wave *wave = &scene->wave;
+    const checked c = {scene, space, model};
+    const sb_vec3 east = {1, 0, 0};
     const double near = NEAR * model->spacing;
     sb_status status = SB_OK;
     if (wave->kind == SB_INITIAL_SOLITARY && scene->sea.present)
-        status = check_depth(model, "water.wave", " at its crest", wave->depth,
-                             depth_between(scene, model, sb_vec(1, 0, 0), wave->position - near, wave->position + near),
-                             error);
+        status = check_depth(&c, "water.wave", " at its crest", wave->depth, east, wave->position - near,
+                             wave->position + near, error);
     if ((wave->kind == SB_INITIAL_REGULAR || wave->kind == SB_INITIAL_COMPONENTS) && scene->sea.present)
-        status = check_depth(model, "water.wave", "", wave->depth,
-                             depth_between(scene, model, sb_vec(1, 0, 0), model->min.x, model->max.x), error);
+        status = check_depth(&c, "water.wave", "", wave->depth, east, model->min.x, model->max.x, error);
     if (status == SB_OK && wave->kind != SB_INITIAL_NONE && scene->sea.present &&
         scene->sea.level + sb_initial_crest(wave) > scene->domain.max.z)
         status = sb_model_warn(model, error,
@@ -121,13 +138,12 @@ static sb_status check_depths(const sb_scene *scene, sb_model *model, sb_error *
                     front = fmax(front, sb_dot(model->wall_position[i], maker->direction));
         if (!(maker->law.depth > 0) || !isfinite(front)) continue;
         snprintf(name, sizeof name, " \"%s\"", maker->name);
-        status = check_depth(model, "wavemaker", name, maker->law.depth,
-                             depth_between(scene, model, maker->direction, front, front + near), error);
+        status = check_depth(&c, "wavemaker", name, maker->law.depth, maker->direction, front, front + near, error);
     }
     return status;
 }
 
-static sb_status check_water(const sb_scene *scene, sb_model *model, sb_error *error)
+static sb_status check_water(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     if (model->fluid_count == 0)
         return sb_model_warn(model, error,
@@ -144,7 +160,7 @@ static sb_status check_water(const sb_scene *scene, sb_model *model, sb_error *e
     for (size_t i = 0; i < scene->wavemaker_count && status == SB_OK; ++i)
         status =
             check_height(model, "wavemaker", scene->wavemakers[i].name, scene->wavemakers[i].law.height, model, error);
-    return status == SB_OK ? check_depths(scene, model, error) : status;
+    return status == SB_OK ? check_depths(scene, space, model, error) : status;
 }
 
 static sb_status check_steps(const sb_scene *scene, sb_model *model, sb_error *error)
@@ -182,5 +198,5 @@ sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_
     if (status == SB_OK) status = sb_model_warn_gaps(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_strokes(scene, space, model, error);
     if (status == SB_OK) status = check_steps(scene, model, error);
-    return status == SB_OK ? check_water(scene, model, error) : status;
+    return status == SB_OK ? check_water(scene, space, model, error) : status;
 }

@@ -23,9 +23,7 @@ void sb_model_free(sb_model *model)
 
 void sb_model_free_start(sb_model *model)
 {
-    bool still = true;
-    for (size_t i = 0; model->fluid_velocity && i < model->fluid_count && still; i++)
-        still = sb_norm(model->fluid_velocity[i]) == 0;
+    const bool still = sb_model_start_speed(model) == 0;
     sb_free(model->fluid_position);
     sb_free(model->fluid_pressure);
     sb_offshore_start_free(&model->grid);

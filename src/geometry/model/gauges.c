@@ -35,30 +35,49 @@ static double depth_below(const sb_model *model, const sb_model_space *space, sb
     return depth;
 }
 
-/* Returns the mean depth of the water around a position, m. */
-static double depth_around(const sb_model *model, double x, double y)
+/* A place, and the particles in the columns around it. */
+typedef struct surroundings {
+    const sb_model *model;
+    double x, y;
+    size_t count;
+} surroundings;
+
+static void count_around(void *context, const sb_water_piece *piece)
 {
-    const double range = AROUND * model->spacing;
-    size_t count = 0;
-    for (size_t i = 0; i < model->fluid_count; ++i) {
-        const sb_vec3 at = model->fluid_position[i];
-        count += fabs(at.x - x) < range && (model->dimensions == 2 || fabs(at.y - y) < range);
+    surroundings *s = context;
+    const double range = AROUND * s->model->spacing;
+    for (size_t i = 0; i < piece->count; ++i) {
+        const sb_vec3 at = piece->position[i];
+        s->count += fabs(at.x - s->x) < range && (s->model->dimensions == 2 || fabs(at.y - s->y) < range);
     }
-    return (double)count * model->spacing / (2 * AROUND) / (model->dimensions == 2 ? 1 : 2 * AROUND);
 }
 
-/* Returns the still-water depth at a gauge if it is too shallow for it, m; else, or without water, 0. */
-static double thin_depth(const sb_scene *scene, const sb_model_space *space, const sb_model *model,
-                         const sb_gauge *gauge)
+/* Finds the mean depth of the water around a position, m. */
+static sb_status depth_around(const sb_model_space *space, const sb_model *model, double x, double y, double *depth,
+                              sb_error *error)
+{
+    surroundings s = {model, x, y, 0};
+    const sb_status status = sb_model_visit_water(space, model, count_around, &s, error);
+    *depth = (double)s.count * model->spacing / (2 * AROUND) / (model->dimensions == 2 ? 1 : 2 * AROUND);
+    return status;
+}
+
+/* Finds the still-water depth at a gauge if it is too shallow for it, m; else, or without water, 0. */
+static sb_status thin_depth(const sb_scene *scene, const sb_model_space *space, const sb_model *model,
+                            const sb_gauge *gauge, double *thin, sb_error *error)
 {
     const bool flat = scene->dimensions == 2;
     const double x = gauge->x, y = flat ? 0 : gauge->y, level = level_over(scene, x, y);
     const double least = (flat ? THIN_FLAT : THIN) * model->spacing;
     if (!(level > model->min.z) || x < model->min.x || x > model->max.x ||
         (!flat && (y < model->min.y || y > model->max.y)))
-        return 0;
+        return SB_OK;
     const double depth = depth_below(model, space, sb_vec(x, y, level));
-    return depth > DAMP * model->spacing && depth < least && depth_around(model, x, y) < least ? depth : 0;
+    if (!(depth > DAMP * model->spacing && depth < least)) return SB_OK;
+    double around = 0;
+    const sb_status status = depth_around(space, model, x, y, &around, error);
+    if (around < least) *thin = depth;
+    return status;
 }
 
 sb_status sb_model_warn_gauges(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
@@ -71,8 +90,11 @@ sb_status sb_model_warn_gauges(const sb_scene *scene, const sb_model_space *spac
     model->shallow = sb_alloc(settings->gauge_count, sizeof *model->shallow);
     if (!model->shallow) return sb_fail_memory(error, "gauges");
     for (size_t i = 0; i < settings->gauge_count; ++i) {
-        const bool grid = settings->gauges[i].water == SB_GAUGE_GRID;
-        const double here = grid ? 0 : thin_depth(scene, space, model, &settings->gauges[i]);
+        double here = 0;
+        if (settings->gauges[i].water != SB_GAUGE_GRID) {
+            const sb_status status = thin_depth(scene, space, model, &settings->gauges[i], &here, error);
+            if (status != SB_OK) return status;
+        }
         model->shallow[i] = here > 0;
         if (here > 0 && first == SIZE_MAX) {
             first = i;

@@ -112,35 +112,67 @@ static sb_status check_heights(const sb_scene *scene, const sb_model_body *body,
 enum { PLACES_MAX = 20000 };
 static const double ON_FLOOR = 1, BELOW = 0.25;
 
-/* Searches vertically below the water on the domain's floor for the deepest ground between `bottom` and `lowest`.
-   Returns false if none lies below *deepest. */
-static bool find_deepest(const sb_model *model, const sb_solid *solid, double bottom, double lowest, sb_vec3 *deepest)
+/* A search below the water on the domain's floor for the deepest ground between `bottom` and `lowest`. */
+typedef struct search {
+    const sb_solid *solid;
+    double floor, top, reach, lowest; /* m; top: of the water that stands on the floor */
+    size_t places, step, place;       /* such water in all; one of `step` is looked at; the next one's number */
+    bool found;
+    sb_vec3 deepest;
+} search;
+
+static void count_places(void *context, const sb_water_piece *piece)
 {
-    const double floor = model->min.z, top = floor + ON_FLOOR * model->spacing;
-    size_t places = 0, place = 0;
-    bool found = false;
-    for (size_t i = 0; i < model->fluid_count; ++i) places += model->fluid_position[i].z < top;
-    const size_t step = places / PLACES_MAX + 1;
-    for (size_t i = 0; i < model->fluid_count; ++i) {
-        sb_vec3 at = model->fluid_position[i];
-        if (at.z >= top || place++ % step != 0) continue;
-        at.z = floor;
-        const double depth = sb_solid_raycast(solid, at, sb_vec(0, 0, -1), floor - bottom + model->spacing);
-        if (!(depth > 0) || floor - depth < lowest || floor - depth >= deepest->z) continue;
-        *deepest = sb_vec(at.x, at.y, floor - depth);
-        found = true;
-    }
-    return found;
+    search *s = context;
+    for (size_t i = 0; i < piece->count; ++i) s->places += piece->position[i].z < s->top;
 }
 
-static sb_status check_floor(const sb_model_body *body, const sb_mesh *mesh, const sb_solid *solid, double lowest,
-                             sb_model *model, sb_error *error)
+static void look_below(void *context, const sb_water_piece *piece)
 {
+    search *s = context;
+    for (size_t i = 0; i < piece->count; ++i) {
+        sb_vec3 at = piece->position[i];
+        if (at.z >= s->top || s->place++ % s->step != 0) continue;
+        at.z = s->floor;
+        const double depth = sb_solid_raycast(s->solid, at, sb_vec(0, 0, -1), s->reach);
+        if (!(depth > 0) || s->floor - depth < s->lowest || s->floor - depth >= s->deepest.z) continue;
+        s->deepest = sb_vec(at.x, at.y, s->floor - depth);
+        s->found = true;
+    }
+}
+
+/* Searches vertically below the water on the domain's floor. *deepest is unchanged if no ground lies below it. */
+static sb_status find_deepest(const sb_model_space *space, const sb_model *model, const sb_solid *solid, double bottom,
+                              double lowest, bool *found, sb_vec3 *deepest, sb_error *error)
+{
+    const double floor = model->min.z;
+    search s = {.solid = solid,
+                .floor = floor,
+                .top = floor + ON_FLOOR * model->spacing,
+                .reach = floor - bottom + model->spacing,
+                .lowest = lowest,
+                .deepest = *deepest};
+    sb_status status = sb_model_visit_water(space, model, count_places, &s, error);
+    s.step = s.places / PLACES_MAX + 1;
+    if (status == SB_OK) status = sb_model_visit_water(space, model, look_below, &s, error);
+    *found = s.found;
+    *deepest = s.deepest;
+    return status;
+}
+
+static sb_status check_floor(const sb_model_space *space, size_t index, double lowest, sb_model *model, sb_error *error)
+{
+    const sb_model_body *body = &model->bodies[index];
+    const sb_mesh *mesh = space->mesh[index];
+    const sb_solid *solid = space->solid[index];
     const double floor = model->min.z;
     double bottom = floor;
     sb_vec3 deepest = {0, 0, floor - BELOW * model->spacing};
     for (size_t i = 0; i < mesh->vertex_count; ++i) bottom = fmin(bottom, mesh->vertices[i].z);
-    if (!solid || !(bottom < deepest.z) || !find_deepest(model, solid, bottom, lowest, &deepest)) return SB_OK;
+    if (!solid || !(bottom < deepest.z)) return SB_OK;
+    bool found = false;
+    const sb_status status = find_deepest(space, model, solid, bottom, lowest, &found, &deepest, error);
+    if (status != SB_OK || !found) return status;
     /* A corner of the ground may lie between the places. The lower edge of an added wall does not count. */
     for (size_t i = 0; i < mesh->vertex_count && body->mesh.ends == 0; ++i) {
         const sb_vec3 at = mesh->vertices[i];
@@ -164,7 +196,7 @@ sb_status sb_model_warn_ground(const sb_scene *scene, const sb_model_space *spac
         double lowest = -(double)INFINITY;
         if (body->role != SB_ROLE_TERRAIN || body->mesh.triangle_count == 0) continue;
         if (body->mesh.node_count > 0) status = check_heights(scene, body, &lowest, model, error);
-        if (status == SB_OK) status = check_floor(body, space->mesh[b], space->solid[b], lowest, model, error);
+        if (status == SB_OK) status = check_floor(space, b, lowest, model, error);
     }
     return status;
 }

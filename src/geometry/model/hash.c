@@ -1,17 +1,28 @@
 /* Computes the hash of a model. */
 #include "base/hash.h"
-#include "geometry/model/model.h"
+#include "geometry/model/parts.h"
 
 #include <string.h>
 
-uint64_t sb_model_hash(const sb_model *model)
+uint64_t sb_model_hash_before(const sb_model *model)
 {
     uint64_t hash = sb_hash(0, &model->min, sizeof model->min);
     hash = sb_hash(hash, &model->max, sizeof model->max);
-    hash = sb_hash(hash, &model->still_depth, sizeof model->still_depth);
+    return sb_hash(hash, &model->still_depth, sizeof model->still_depth);
+}
+
+static uint64_t hash_water(const sb_model *model)
+{
+    if (model->part.divided) return model->part.hash;
+    uint64_t hash = sb_model_hash_before(model);
     hash = sb_hash(hash, model->fluid_position, model->fluid_count * sizeof *model->fluid_position);
     hash = sb_hash(hash, model->fluid_velocity, model->fluid_count * sizeof *model->fluid_velocity);
-    hash = sb_hash(hash, model->fluid_pressure, model->fluid_count * sizeof *model->fluid_pressure);
+    return sb_hash(hash, model->fluid_pressure, model->fluid_count * sizeof *model->fluid_pressure);
+}
+
+uint64_t sb_model_hash(const sb_model *model)
+{
+    uint64_t hash = hash_water(model);
     hash = sb_hash(hash, model->wall_position, model->wall_count * sizeof *model->wall_position);
     if (model->wall_normal) hash = sb_hash(hash, model->wall_normal, model->wall_count * sizeof *model->wall_normal);
     for (size_t b = 0; b < model->body_count; b++) {

@@ -9,13 +9,21 @@ sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error
 
 sb_status sb_model_build_for(const sb_scene *scene, sb_model_need *need, sb_model *model, sb_error *error)
 {
+    return sb_model_build_part(scene, need, 0, 1, model, error);
+}
+
+sb_status sb_model_build_part(const sb_scene *scene, sb_model_need *need, int rank, int ranks, sb_model *model,
+                              sb_error *error)
+{
+    const sb_fill_share share = {(size_t)rank, (size_t)ranks};
     sb_model made = {.dimensions = 0};
     sb_model_space space = {.count = 0};
     sb_status status = sb_model_import_bodies(scene, &made, error);
     if (status == SB_OK) status = sb_model_room(scene, &made, need, error);
     if (status == SB_OK) status = sb_model_space_create(&made, scene, &space, error);
     /* The sea comes first: if it escapes, the walls need not be sampled. */
-    if (status == SB_OK) status = sb_model_fill(scene, &space, &made, error);
+    if (status == SB_OK) status = sb_model_fill(scene, &share, &space, &made, error);
+    if (status == SB_OK) status = sb_model_know_water(&space, &made, error);
     if (status == SB_OK) status = sb_model_sea_sides(scene, &space, &made, error);
     if (status == SB_OK) status = sb_model_sample(scene, &space, &made, error);
     if (status == SB_OK) status = sb_model_check_sides(scene, &space, &made, error);

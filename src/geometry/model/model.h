@@ -38,16 +38,26 @@ typedef struct sb_model_sea {
     double *bed; /* m, z of the ground, along * across, the cells of one line inwards after each other */
 } sb_model_sea;
 
+/* The part of the water's particles that one of several ranks has, and what it knows of all of them. */
+typedef struct sb_model_part {
+    bool divided;      /* false: the model has all particles, and the rest of this structure is 0 */
+    size_t from, here; /* the arrays have the particles [from, from + here) */
+    sb_vec3 low, high; /* m, extent of all */
+    double speed;      /* m/s, greatest of all */
+    uint64_t hash;     /* of all, and of what sb_model_hash has before them */
+} sb_model_part;
+
 typedef struct sb_model {
     sb_vec3 min, max; /* m, the domain; min is the origin of stored positions */
     int dimensions;
-    bool images;            /* walls reflect water */
-    double spacing;         /* m */
-    double still_depth;     /* m, D: the largest still depth of water */
-    double sea_depth;       /* m, the largest depth that a given sea reaches at its sides; 0: there is none */
-    sb_model_sea sea[4];    /* by side, from x_min to y_max */
-    sb_offshore_start grid; /* of the depth-averaged model that gives the water there; empty with other sources */
-    size_t fluid_count;
+    bool images;             /* walls reflect water */
+    double spacing;          /* m */
+    double still_depth;      /* m, D: the largest still depth of water */
+    double sea_depth;        /* m, the largest depth that a given sea reaches at its sides; 0: there is none */
+    sb_model_sea sea[4];     /* by side, from x_min to y_max */
+    sb_offshore_start grid;  /* of the depth-averaged model that gives the water there; empty with other sources */
+    size_t fluid_count;      /* of all ranks */
+    sb_model_part part;      /* which of them are here */
     sb_vec3 *fluid_position; /* m */
     sb_vec3 *fluid_velocity; /* m/s; NULL: freed, all zero */
     double *fluid_pressure;  /* Pa, initial guess: hydrostatic */
@@ -70,6 +80,17 @@ static inline double sb_model_wave_speed(const sb_scene *scene, const sb_model *
     return sqrt(scene->fluid.gravity * fmax(fmax(model->still_depth, model->sea_depth), scene->resolution));
 }
 
+/* water.c: the fluid particles here. */
+static inline size_t sb_model_fluid_here(const sb_model *model)
+{
+    return model->part.divided ? model->part.here : model->fluid_count;
+}
+
+/* Extent of all fluid particles at the start, m. Returns false if there are none, or if their positions were freed. */
+bool sb_model_extent(const sb_model *model, sb_vec3 *low, sb_vec3 *high);
+/* Their greatest speed at the start, m/s; 0 if their velocities were freed, which are all zero then. */
+double sb_model_start_speed(const sb_model *model);
+
 /* plates.c: the index of the body that has a body's forces: of a push-plate the first plate, otherwise the body. */
 size_t sb_model_whole(const sb_model *model, size_t body);
 
@@ -90,6 +111,14 @@ sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error
    alone. */
 typedef double sb_model_need(const sb_scene *scene, const sb_model *model);
 sb_status sb_model_build_for(const sb_scene *scene, sb_model_need *need, sb_model *model, sb_error *error);
+
+/* The same for rank `rank` of `ranks`, which has a part of the fluid particles if the water can be placed in parts (it
+   is one sea or one box): model->part. All ranks have the same model otherwise, warnings and hash included. They send
+   nothing to each other. */
+sb_status sb_model_build_part(const sb_scene *scene, sb_model_need *need, int rank, int ranks, sb_model *model,
+                              sb_error *error);
+/* Whether sb_model_build_part divides the fluid particles of a scene. */
+bool sb_model_divides(const sb_scene *scene);
 void sb_model_free(sb_model *model);
 
 /* Returns a hash of all parts of the model on which the simulation and its measurements depend. Runs of two models

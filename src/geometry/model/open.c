@@ -39,28 +39,43 @@ static size_t box_of(const sb_scene *scene, sb_vec3 at)
     return i;
 }
 
+/* The water that stands at a side. */
+typedef struct standing {
+    const sb_model_space *space;
+    const sb_model *model;
+    int side;
+    sb_vec3 first;
+    double low, high; /* m, of its particles */
+} standing;
+
+static void find_standing(void *context, const sb_water_piece *piece)
+{
+    standing *s = context;
+    for (size_t i = 0; i < piece->count; ++i) {
+        const sb_vec3 at = piece->position[i];
+        const double distance = distance_to(s->model, s->side, at);
+        if (distance >= BESIDE * s->model->spacing || !is_clear(s->model, s->space, at, s->side, distance)) continue;
+        if (s->low > s->high) s->first = at;
+        s->low = fmin(s->low, at.z);
+        s->high = fmax(s->high, at.z);
+    }
+}
+
 static sb_status check_side(const sb_scene *scene, const sb_model_space *space, int side, sb_model *model,
                             sb_error *error)
 {
-    sb_vec3 first = {0, 0, 0};
-    double low = (double)INFINITY, high = -(double)INFINITY;
+    standing s = {space, model, side, {0, 0, 0}, (double)INFINITY, -(double)INFINITY};
     char name[48] = "water";
-    for (size_t i = 0; i < model->fluid_count; ++i) {
-        const sb_vec3 at = model->fluid_position[i];
-        const double distance = distance_to(model, side, at);
-        if (distance >= BESIDE * model->spacing || !is_clear(model, space, at, side, distance)) continue;
-        if (low > high) first = at;
-        low = fmin(low, at.z);
-        high = fmax(high, at.z);
-    }
-    if (low > high) return SB_OK;
+    const sb_status status = sb_model_visit_water(space, model, find_standing, &s, error);
+    if (status != SB_OK || s.low > s.high) return status;
+    const sb_vec3 first = s.first;
     const size_t box = box_of(scene, first);
     if (box < scene->box_count) snprintf(name, sizeof name, "water.boxes[%zu]", box);
     return sb_model_warn(
         model, error,
         "%s: its water stands at the open side %s, near (%.4g, %.4g, %.4g) and %.2g m high, and leaves "
         "the domain there from the start; expected a wall at that side, or a body that holds the water",
-        name, sb_side_names[side], first.x, first.y, first.z, high - low + model->spacing);
+        name, sb_side_names[side], first.x, first.y, first.z, s.high - s.low + model->spacing);
 }
 
 sb_status sb_model_warn_open(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)

@@ -67,7 +67,8 @@ static sb_status check_boxes(const sb_scene *scene, const sb_fluid *fluid, sb_mo
     return status;
 }
 
-sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
+sb_status sb_model_fill(const sb_scene *scene, const sb_fill_share *share, sb_model_space *space, sb_model *model,
+                        sb_error *error)
 {
     sb_fill_solid *solids = sb_alloc(space->count, sizeof *solids);
     if (!solids) return sb_fail_memory(error, "solids");
@@ -77,7 +78,7 @@ sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_m
         if (space->solid[i] && model->bodies[i].mesh.triangle_count > 0)
             solids[count++] = (sb_fill_solid){space->solid[i], model->bodies[i].name};
     sb_fluid fluid = {.count = 0};
-    sb_status status = sb_fill_water(scene, solids, count, &fluid, error);
+    sb_status status = sb_fill_water(scene, solids, count, share, &fluid, error);
     sb_free(solids);
     if (status != SB_OK) return status;
     model->fluid_count = fluid.count;
@@ -85,6 +86,8 @@ sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_m
     model->fluid_velocity = fluid.velocity;
     model->fluid_pressure = fluid.pressure;
     model->still_depth = fluid.still_depth;
+    space->water = fluid.source;
+    if (space->water) model->part = (sb_model_part){.divided = true, .from = fluid.from, .here = fluid.here};
     status = check_boxes(scene, &fluid, model, error);
     if (status == SB_OK) status = sb_model_warn_wave(scene, &fluid.wave, model, error);
     sb_free(fluid.boxes);

@@ -15,6 +15,7 @@ typedef struct sb_model_space {
     sb_mesh *simple;      /* owned: with less detail than the body's own, if walls reflect water; else empty */
     const sb_mesh **mesh; /* the section, the simple one or the body's own */
     sb_solid **solid;
+    sb_fill_source *water; /* owned: places the particles of all ranks; NULL: the model has them all */
 } sb_model_space;
 
 sb_status sb_model_space_create(const sb_model *model, const sb_scene *domain_of, sb_model_space *space,
@@ -100,7 +101,23 @@ sb_status sb_model_warn_wave(const sb_scene *scene, const sb_wave_room *room, sb
 
 /* particles.c: places the boundary particles and the fluid particles. */
 sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
-sb_status sb_model_fill(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+sb_status sb_model_fill(const sb_scene *scene, const sb_fill_share *share, sb_model_space *space, sb_model *model,
+                        sb_error *error);
+
+/* water.c: calls `visit` for all fluid particles in their order, some at a time. If the model has only a part, they are
+   placed again for it, which can fail; else there is one call. */
+typedef struct sb_water_piece {
+    size_t from, count; /* the particles [from, from + count) of all */
+    const sb_vec3 *position, *velocity;
+    const double *pressure;
+} sb_water_piece;
+typedef void sb_visit_water(void *context, const sb_water_piece *piece);
+sb_status sb_model_visit_water(const sb_model_space *space, const sb_model *model, sb_visit_water *visit, void *context,
+                               sb_error *error);
+/* Fills in model->part.low, high, speed and hash of a divided model. */
+sb_status sb_model_know_water(const sb_model_space *space, sb_model *model, sb_error *error);
+/* hash.c: the hash of what precedes the fluid particles in a model's. */
+uint64_t sb_model_hash_before(const sb_model *model);
 
 /* SB_BAD_INPUT, with the figures and a spacing that would fit, if the particles of these bodies and their water need
    more memory than may be planned with (see sb_model_build_for). */

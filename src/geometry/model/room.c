@@ -25,7 +25,7 @@ static sb_status count_coarsely(const sb_scene *scene, const sb_model *bodies, d
     sb_model_space space = {.count = 0};
     coarse.resolution *= ratio;
     sb_status status = sb_model_space_create(bodies, &coarse, &space, NULL);
-    if (status == SB_OK) status = sb_model_fill(&coarse, &space, &model, NULL);
+    if (status == SB_OK) status = sb_model_fill(&coarse, &(sb_fill_share){0, 1}, &space, &model, NULL);
     if (status == SB_OK) status = sb_model_sample(&coarse, &space, &model, NULL);
     sb_model_space_free(&space);
     *found = (counts){(double)model.fluid_count * pow(ratio, scene->dimensions),

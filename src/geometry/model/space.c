@@ -107,6 +107,7 @@ void sb_model_space_free(sb_model_space *space)
         if (space->section) sb_mesh_free(space->section + i);
         if (space->simple) sb_mesh_free(space->simple + i);
     }
+    sb_fill_source_destroy(space->water);
     sb_free(space->section);
     sb_free(space->simple);
     sb_free(space->mesh);

@@ -1,7 +1,6 @@
-/* Where the keys are cut into domains. A cut decides how long a step takes, and nothing else. */
-#include "base/memory.h"
+/* Where the keys are cut anew into domains while the run lasts. A cut decides how long a step takes, and nothing else.
+ */
 #include "sim/exchange/domains.h"
-#include "sim/search/sort.h"
 
 #include <string.h>
 
@@ -16,45 +15,6 @@ static const double IMBALANCE = 0.05, WORTH = 0.25;
 static uint64_t block_begin(uint64_t key)
 {
     return key & ~(uint64_t)(CELLS_OF_BLOCK - 1);
-}
-
-static uint64_t block_of_word(const uint64_t *words, size_t i)
-{
-    return block_begin(sb_word_key(words[i]));
-}
-
-/* The key of the block boundary nearest to entry `at` of `count` sorted words. */
-static uint64_t nearest_boundary(const uint64_t *words, size_t count, size_t at)
-{
-    if (at >= count) return UINT64_MAX;
-    const uint64_t block = block_of_word(words, at);
-    size_t begin = at, end = at;
-    while (begin > 0 && block_of_word(words, begin - 1) == block) begin--;
-    while (end < count && block_of_word(words, end) == block) end++;
-    return at - begin <= end - at ? block : block + CELLS_OF_BLOCK;
-}
-
-sb_status sb_domains_cut(sb_sim *sim, sb_place_of *place, const void *set, size_t count, sb_error *error)
-{
-    sb_domains *d = sim->domains;
-    const size_t ranks = (size_t)d->ranks->count;
-    uint64_t *words = sb_alloc_untouched(count, sizeof *words), *other = sb_alloc_untouched(count, sizeof *other);
-    const uint64_t *sorted = NULL;
-    if (words && other) {
-#pragma omp parallel for schedule(static)
-        for (size_t i = 0; i < count; i++) {
-            const sb_record at = sb_space_wrap(&sim->space, place(sim, set, i));
-            words[i] = sb_sort_word(sb_space_key(&sim->space, at), 0);
-        }
-        sorted = sb_sort(words, other, count, SB_INDEX_BITS, SB_INDEX_BITS + sim->space.key_bits);
-    }
-    for (size_t r = 1; r < ranks && sorted; r++) d->cut[r] = nearest_boundary(sorted, count, count * r / ranks);
-    d->cut[0] = 0;
-    d->cut[ranks] = UINT64_MAX;
-    d->recut = false;
-    sb_free(words);
-    sb_free(other);
-    return sb_domains_agree(sim, sorted ? SB_OK : sb_fail_memory(error, "domains"), error);
 }
 
 /* What the step costs for a group: pairs of neighbours, and what it costs per particle. */

@@ -38,11 +38,19 @@ void sb_domains_destroy(sb_domains *d)
     sb_free(d->plan.receives);
     sb_free(d->plan.run);
     sb_free(d->plan.place);
+    sb_domains_free_buffers(d);
+    sb_free(d->pairs);
+    sb_free(d);
+}
+
+void sb_domains_free_buffers(sb_domains *d)
+{
     sb_free(d->out);
     sb_free(d->in);
     sb_free(d->migrant);
-    sb_free(d->pairs);
-    sb_free(d);
+    d->out = d->in = NULL;
+    d->migrant = NULL;
+    d->out_capacity = d->in_capacity = d->migrant_capacity = 0;
 }
 
 size_t sb_domains_bytes(const sb_domains *d)

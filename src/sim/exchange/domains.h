@@ -54,6 +54,8 @@ typedef struct sb_domains {
 sb_status sb_domains_create(sb_sim *sim, sb_error *error);
 void sb_domains_destroy(sb_domains *domains);
 size_t sb_domains_bytes(const sb_domains *domains);
+/* Frees the buffers of particles that are handed over: at the start there are many, later few. */
+void sb_domains_free_buffers(sb_domains *domains);
 
 /* The rank that has a key. */
 static inline int sb_domains_owner(const sb_domains *domains, uint64_t key)
@@ -81,11 +83,16 @@ sb_status sb_domains_agree(const sb_sim *sim, sb_status own, sb_error *error);
 /* Gathers `domains->row`, one number for each rank to which this one sends, into `domains->matrix`. */
 void sb_domains_gather_row(sb_domains *domains);
 
-/* cut.c. The place of a particle of a set that all ranks know. */
+/* first_cut.c. The place of particle i of a set of all particles. */
 typedef sb_record sb_place_of(const sb_sim *sim, const void *set, size_t i);
-/* Cuts the keys so that each domain has about the same number of the set's particles; all ranks call it with the same
-   set. SB_FAILED without memory. */
+/* Cuts the keys so that each domain has about the same number of the set's particles. This rank knows the places of the
+   particles [from, from + count); the parts of all ranks make up the set. SB_FAILED without memory. */
+sb_status sb_domains_cut_parts(sb_sim *sim, sb_place_of *place, const void *set, size_t from, size_t count,
+                               sb_error *error);
+/* The same, of `count` particles whose places all ranks know. */
 sb_status sb_domains_cut(sb_sim *sim, sb_place_of *place, const void *set, size_t count, sb_error *error);
+
+/* cut.c */
 /* Once in several searches weighs the domains by their pairs of neighbours and, if one has too many, cuts them anew
    from the next sort on. found: whether this domain's search has succeeded. */
 void sb_domains_balance(sb_sim *sim, bool found);
@@ -95,6 +102,9 @@ sb_status sb_domains_migrate(sb_sim *sim, sb_error *error);
 
 /* halo_plan.c: makes the plan of what this rank sends. Returns 0, or -1 without memory. */
 int sb_domains_plan_sends(sb_sim *sim);
+/* Finds the ranks, this one included, whose groups read the cell of `at`, images beyond periodic sides aside. Returns
+   their number. */
+size_t sb_domains_readers(const sb_sim *sim, sb_record at, int rank[SB_RANKS_MAX]);
 
 /* halo.c */
 sb_status sb_domains_make_ghosts(sb_sim *sim, sb_error *error);

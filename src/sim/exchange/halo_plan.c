@@ -46,8 +46,8 @@ static void note(ranks_near *near, int rank)
     near->rank[near->count++] = rank;
 }
 
-/* Notes the other ranks that own blocks of a span. */
-static void note_owners(const sb_sim *sim, const span *s, ranks_near *near)
+/* Notes the ranks that own blocks of a span; itself: this one as well. */
+static void note_owners(const sb_sim *sim, const span *s, bool itself, ranks_near *near)
 {
     const int shift = sim->space.shift;
     for (int64_t z = s->from[2]; z <= s->to[2]; z++)
@@ -57,7 +57,7 @@ static void note_owners(const sb_sim *sim, const span *s, ranks_near *near)
                 const sb_record corner = {(uint32_t)(2 * x) << shift, (uint32_t)(2 * y) << shift,
                                           (uint32_t)(2 * z) << shift, 0};
                 const uint64_t key = sb_space_key(&sim->space, corner);
-                if (!sb_domains_owns(sim->domains, key)) note(near, sb_domains_owner(sim->domains, key));
+                if (itself || !sb_domains_owns(sim->domains, key)) note(near, sb_domains_owner(sim->domains, key));
             }
 }
 
@@ -77,9 +77,23 @@ static void find_ranks(const sb_sim *sim, sb_record at, ranks_near *near)
             else
                 there = space->period[axis] > 0 && blocks_near_image(sim, &s, axis, cell, sides[axis]);
         }
-        if (there) note_owners(sim, &s, near);
+        if (there) note_owners(sim, &s, false, near);
         if (!space->repeats) return;
     }
+}
+
+size_t sb_domains_readers(const sb_sim *sim, sb_record at, int rank[SB_RANKS_MAX])
+{
+    span s;
+    ranks_near near;
+    near.count = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const int64_t cell = at[axis] >> sim->space.shift;
+        blocks_near(sim, &s, axis, cell, cell);
+    }
+    note_owners(sim, &s, true, &near);
+    memcpy(rank, near.rank, near.count * sizeof *rank);
+    return near.count;
 }
 
 /* Whether all blocks around that of a group are this rank's, and none has images. */
@@ -98,7 +112,7 @@ static bool is_inner(const sb_sim *sim, const sb_group *group)
     }
     ranks_near near;
     near.count = 0;
-    note_owners(sim, &s, &near);
+    note_owners(sim, &s, false, &near);
     return near.count == 0;
 }
 

@@ -2,6 +2,7 @@
    order in which they arrive has no effect. */
 #include "base/memory.h"
 #include "sim/exchange/domains.h"
+#include "sim/walls/walls.h"
 
 #include <string.h>
 
@@ -181,6 +182,7 @@ sb_status sb_domains_migrate(sb_sim *sim, sb_error *error)
     if (failed == 0) failed = reserve(sim, count, arrivals, bytes);
     const sb_status status =
         sb_domains_agree(sim, failed ? sb_fail_memory(error, "particles that arrive") : SB_OK, error);
-    if (status == SB_OK) hand_over(sim, count, arrivals, bytes);
-    return status;
+    if (status != SB_OK) return status;
+    hand_over(sim, count, arrivals, bytes);
+    return sb_walls_divide(sim, error);
 }

@@ -63,9 +63,7 @@ sb_status sb_strip_create(sb_sim *sim, sb_error *error)
     if (!sim->needs.sea) return SB_OK;
     sim->strip = sb_alloc(1, sizeof *sim->strip);
     if (!sim->strip) return sb_fail_memory(error, "strips of given water");
-    sim->strip->still = true;
-    for (size_t i = 0; sim->model->fluid_velocity && i < sim->model->fluid_count && sim->strip->still; i++)
-        sim->strip->still = sb_norm(sim->model->fluid_velocity[i]) == 0;
+    sim->strip->still = sb_model_start_speed(sim->model) == 0;
     const sb_status status = sb_sea_create(sim->scene, &sim->model->grid, &sim->strip->sea, error);
     for (int side = 0; side < 4 && status == SB_OK; side++) {
         if (!sb_scene_sea_side(sim->scene, side)) continue;

@@ -10,12 +10,8 @@
 static double slowest(const sb_scene *scene, const sb_model *model)
 {
     const double dr = scene->resolution;
-    if (model->fluid_count == 0 || !model->fluid_position) return 0;
-    sb_vec3 low = model->fluid_position[0], high = low;
-    for (size_t i = 1; i < model->fluid_count; i++) {
-        low = sb_min(low, model->fluid_position[i]);
-        high = sb_max(high, model->fluid_position[i]);
-    }
+    sb_vec3 low, high;
+    if (!sb_model_extent(model, &low, &high)) return 0;
     const double x = high.x - low.x + dr, y = scene->dimensions == 2 ? dr : high.y - low.y + dr;
     const double depth = (double)model->fluid_count * dr * dr * dr / (x * y);
     return acos(-1) * sqrt(scene->fluid.gravity * depth) / fmax(x, y);
@@ -30,15 +26,6 @@ static double capillary_speed(const sb_scene *scene, const sb_model *model)
     return sqrt(2 * scene->fluid.surface_tension / (scene->fluid.density * fmax(radius, dr)));
 }
 
-/* Greatest speed of the water at t = 0, m/s. */
-static double fastest_start(const sb_model *model)
-{
-    double speed = 0;
-    for (size_t i = 0; i < model->fluid_count && model->fluid_velocity; i++)
-        speed = fmax(speed, sb_norm(model->fluid_velocity[i]));
-    return speed;
-}
-
 sb_constants sb_constants_of(const sb_scene *scene, const sb_model *model)
 {
     double dr = scene->resolution, g = scene->fluid.gravity;
@@ -47,7 +34,7 @@ sb_constants sb_constants_of(const sb_scene *scene, const sb_model *model)
     if (scene->fluid.surface_tension > 0) wave_speed = fmax(g > 0 ? wave_speed : 0, capillary_speed(scene, model));
     double sound = scene->numerics.sound_speed > 0 ? scene->numerics.sound_speed : 10 * wave_speed;
     if (scene->numerics.solver == SB_SOLVER_WCSPH && !(scene->numerics.sound_speed > 0))
-        sound = fmax(sound, 10 * fastest_start(model));
+        sound = fmax(sound, 10 * sb_model_start_speed(model));
     return (sb_constants){
         .dimension = scene->dimensions,
         .spacing = (float)dr,

@@ -67,7 +67,18 @@ typedef struct sb_boundary {
     float *load;           /* q = p/rho^2 */
 } sb_boundary;
 
+/* A share of all static boundary particles in the order of their keys, which each of several ranks keeps, so that the
+   ranks can give each other those near their domains. The static set then has only these. */
+typedef struct sb_wall_share {
+    uint64_t *cut; /* of the domains for which the static set was made; NULL: the static set has all */
+    size_t count;
+    sb_record *record; /* as in sb_wall_set */
+    uint32_t *body;
+    sb_f4 *normal;
+} sb_wall_share;
+
 typedef struct sb_walls {
+    sb_wall_share share;
     sb_mirrors mirrors;
     sb_boundary boundary;
     sb_wall_set set[SB_WALL_SETS];

@@ -46,7 +46,7 @@ static uint64_t block_beside(const sb_space *space, sb_record record, int dx, in
     return sb_space_key(space, beside) >> NEAR_SHIFT;
 }
 
-static int near_build(sb_wall_set *set, const sb_space *space)
+int sb_walls_near_build(sb_wall_set *set, const sb_space *space)
 {
     size_t slots = 64, used = 0;
     for (;;) {
@@ -177,10 +177,11 @@ sb_status sb_walls_create(sb_sim *sim, sb_error *error)
             return sb_fail_memory(error, "boundary particles");
         if (sim->space.repeats && (sb_wall_images(set, &sim->space) != 0 || table_build(set, &sim->space) != 0))
             return sb_fail_memory(error, "images of boundary particles");
-        if (near_build(set, &sim->space) != 0) return sb_fail_memory(error, "boundary particles");
+        if (sb_walls_near_build(set, &sim->space) != 0) return sb_fail_memory(error, "boundary particles");
     }
     if (sim->needs.dynamic_walls && sb_boundary_create(sim) != 0)
         return sb_fail_memory(error, "dynamic boundary particles");
+    if (sb_walls_share(sim) != 0) return sb_fail_memory(error, "boundary particles");
     if (sim->needs.images && (status = sb_mirrors_create(sim, error)) != SB_OK) return status;
     const sb_wall_set *set = &sim->walls.set[SB_MOVING];
     sim->walls.rest.count = set->count;
@@ -216,6 +217,7 @@ void sb_walls_destroy(sb_sim *sim)
     }
     sb_free(sim->walls.moving);
     sb_free(sim->walls.moving_of_body);
+    sb_walls_share_free(&sim->walls.share);
     sb_mirrors_destroy(sim);
     sb_free(sim->walls.rest.record);
     sb_free(sim->walls.rest.body);
@@ -294,7 +296,7 @@ sb_status sb_walls_restore(sb_sim *sim, sb_error *error)
     if (sim->walls.moving_count == 0) return SB_OK;
     place(sim);
     if (table_build(&sim->walls.set[SB_MOVING], &sim->space) != 0 ||
-        near_build(&sim->walls.set[SB_MOVING], &sim->space) != 0)
+        sb_walls_near_build(&sim->walls.set[SB_MOVING], &sim->space) != 0)
         return sb_fail_memory(error, "moving boundary particles");
     return SB_OK;
 }

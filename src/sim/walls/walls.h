@@ -17,6 +17,15 @@ int sb_wall_volumes(const sb_sim *sim, sb_wall_set *set, bool only_own);
 int sb_wall_images(sb_wall_set *set, const sb_space *space);
 /* Rebuilds the table of the moving bodies after their displacements have been set. */
 sb_status sb_walls_restore(sb_sim *sim, sb_error *error);
+/* Builds the hash set of blocks from the set's cells. Returns 0, or -1 without memory. */
+int sb_walls_near_build(sb_wall_set *set, const sb_space *space);
+/* sim/walls/divide.c: keeps this rank's share of the static set, which sb_walls_divide makes smaller. Not with foam,
+   which may be anywhere, and dynamic boundary particles, which have numbers. Returns 0, or -1 without memory. */
+int sb_walls_share(sb_sim *sim);
+void sb_walls_share_free(sb_wall_share *share);
+/* Gives each rank the static boundary particles that its domain's particles may meet, if the domains have changed. All
+   ranks call it. SB_FAILED without memory in any. */
+sb_status sb_walls_divide(sb_sim *sim, sb_error *error);
 /* Whether a cell may have boundary particles of the set within the support radius. */
 bool sb_walls_near(const sb_wall_set *set, const sb_space *space, sb_record record);
 

@@ -7,6 +7,7 @@
 
 #include <omp.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 void ranks_make(const ranks_case *c, ranks_made *made)
@@ -109,12 +110,18 @@ static void run(sb_ranks *ranks, void *context)
     sb_push_place places[RANKS_BODIES_MAX];
     const size_t place_count = ranks_places(j->made, places);
     const int steps = j->way->steps > 0 ? j->way->steps : j->what->steps;
-    sb_status status = sb_sim_create(&j->made->scene, &j->made->model, ranks, &sim, &end->error);
+    sb_model part = {.dimensions = 0};
+    const bool divided = j->way->divided;
+    if (divided && sb_model_build_part(&j->made->scene, NULL, ranks->rank, ranks->count, &part, &end->error) != SB_OK)
+        abort(); /* the others would wait */
+    sb_status status = sb_sim_create(&j->made->scene, divided ? &part : &j->made->model, ranks, &sim, &end->error);
+    sb_model_free_start(&part);
     if (status == SB_OK) status = begin(j, sim, &end->error);
     if (status == SB_OK) status = sb_sim_record_pushes(sim, places, place_count, &end->error);
     for (int step = 0; step < steps && status == SB_OK; step++) status = sb_sim_step(sim, &end->error);
     if (status == SB_OK) show(sim, end, sb_ranks_own(ranks) == 0);
     sb_sim_destroy(sim);
+    sb_model_free(&part);
 }
 
 bool ranks_same_samples(const ranks_end *a, const ranks_end *b)

@@ -19,8 +19,9 @@ typedef struct ranks_case {
     bool disturbed; /* it is also run with delayed messages and two threads per rank */
 } ranks_case;
 
-/* ranks_cases.c: the first scene, and one for each kind of scene; ends with one without name. */
-extern const ranks_case ranks_column, ranks_cases[];
+/* ranks_cases.c: the first scene, one whose only water is a sea that moves at the start, and one for each kind of
+ * scene; ends with one without name. */
+extern const ranks_case ranks_column, ranks_sea, ranks_cases[];
 
 typedef struct ranks_made {
     sb_scene scene;
@@ -39,7 +40,8 @@ typedef struct ranks_way {
     int ranks, threads;
     uint64_t disturb;
     const sb_archive_out *from;
-    int steps; /* instead of the case's, if > 0 */
+    int steps;    /* instead of the case's, if > 0 */
+    bool divided; /* each rank has a model of its own, with its part of the particles */
 } ranks_way;
 
 /* What a run came to. What differs between the ranks is that of the first. */

@@ -12,6 +12,14 @@
 const ranks_case ranks_column = {
     .name = "column", .file = COLUMN, .steps = 6, .set = {"resolution=0.05", "numerics.settle_steps=4"}};
 
+const ranks_case ranks_sea = {.name = "sea with a solitary wave",
+                              .file = TANK,
+                              .steps = 6,
+                              .set = {"domain={min: [0, 0, 0], max: [6, 0.8, 1]}", "resolution=0.1",
+                                      "water={level: 0.5, seed: [1, 0.4, 0.2], wave: {kind: solitary, height: 0.15, "
+                                      "depth: 0.5, position: 3}}",
+                                      "numerics.jitter=0.1", "numerics.settle_steps=4"}};
+
 const ranks_case ranks_cases[] = {
     {.name = "column with boundary particles",
      .file = COLUMN,

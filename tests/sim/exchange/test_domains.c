@@ -36,6 +36,7 @@ typedef struct job {
     uint64_t hash[RANKS], cuts[RANKS];
     double imbalance[RANKS];
     size_t first_owned[RANKS];
+    size_t walls[RANKS]; /* static boundary particles that a rank has in the end */
     sb_error error[RANKS];
 } job;
 
@@ -86,6 +87,7 @@ static void run(sb_ranks *ranks, void *context)
         j->cuts[rank] = sb_sim_division(sim).cuts;
         status = sb_stage_sort(sim, &j->error[rank]);
         j->misplaced[rank] = count_misplaced(sim);
+        j->walls[rank] = sim->walls.set[SB_STATIC].count;
     }
     sb_sim_destroy(sim);
 }
@@ -115,6 +117,10 @@ static void a_bad_cut_is_mended(void **state)
         assert_true(ranks.imbalance[r] < 0.12 && ranks.imbalance[r] == ranks.imbalance[0]);
     }
     printf("imbalance %g after %d cuts\n", ranks.imbalance[0], (int)ranks.cuts[0]);
+    for (int r = 0; r < RANKS; r++) {
+        printf("rank %d has %zu of %zu boundary particles\n", r, ranks.walls[r], alone.walls[0]);
+        assert_true(ranks.walls[r] > 0 && ranks.walls[r] < alone.walls[0]);
+    }
     ranks_free(&made);
 }
 

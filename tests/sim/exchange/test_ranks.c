@@ -105,6 +105,15 @@ static void any_number_of_ranks(void **state)
     check_case(&ranks_column, ways, sizeof ways / sizeof *ways);
 }
 
+/* Each rank places a part of the water: with its own model, none has all particles. */
+static void each_rank_places_a_part(void **state)
+{
+    (void)state;
+    static const ranks_way ways[] = {{.ranks = 2, .threads = 2, .divided = true},
+                                     {.ranks = 5, .threads = 1, .divided = true}};
+    check_case(&ranks_sea, ways, sizeof ways / sizeof *ways);
+}
+
 static void messages_in_any_order(void **state)
 {
     (void)state;
@@ -152,6 +161,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_number_of_ranks),
+        cmocka_unit_test(each_rank_places_a_part),
         cmocka_unit_test(messages_in_any_order),
         cmocka_unit_test(each_kind_of_scene),
         cmocka_unit_test(saved_states_have_no_trace_of_ranks),

@@ -1,0 +1,172 @@
+/* Static boundary particles of one of several ranks: those that the particles of its domain may meet. Each rank keeps a
+   share of all of them in the order of their keys. What a rank receives from the shares, one rank after another, is in
+   this order, too, so that each cell has the content that it has in one rank. */
+#include "base/memory.h"
+#include "sim/exchange/domains.h"
+#include "sim/walls/walls.h"
+
+#include <string.h>
+
+/* A boundary particle on its way to another rank. */
+typedef struct passenger {
+    sb_record record;
+    sb_f4 normal;
+    uint32_t body, unused[3];
+} passenger;
+
+/* Buffers, and the new static set. */
+typedef struct delivery {
+    passenger *out, *in;
+    size_t sent, arrived;
+    sb_wall_set set;
+} delivery;
+
+void sb_walls_share_free(sb_wall_share *share)
+{
+    sb_free(share->cut);
+    sb_free(share->record);
+    sb_free(share->body);
+    sb_free(share->normal);
+    *share = (sb_wall_share){.cut = NULL};
+}
+
+static int allocate(sb_record **record, uint32_t **body, sb_f4 **normal, size_t count)
+{
+    *record = sb_alloc_untouched(count, sizeof **record);
+    *body = sb_alloc_untouched(count, sizeof **body);
+    *normal = sb_alloc_untouched(count, sizeof **normal);
+    return *record && *body && *normal ? 0 : -1;
+}
+
+int sb_walls_share(sb_sim *sim)
+{
+    const sb_wall_set *set = &sim->walls.set[SB_STATIC];
+    sb_wall_share *share = &sim->walls.share;
+    if (!sim->domains || sim->needs.foam || sim->needs.dynamic_walls) return 0;
+    const size_t ranks = (size_t)sim->ranks->count, own = (size_t)sim->ranks->rank;
+    const size_t from = set->count * own / ranks;
+    share->count = set->count * (own + 1) / ranks - from;
+    share->cut = sb_alloc(ranks + 1, sizeof *share->cut); /* of no domains */
+    if (!share->cut || allocate(&share->record, &share->body, &share->normal, share->count) != 0) return -1;
+    memcpy(share->record, set->record + from, share->count * sizeof *share->record);
+    memcpy(share->body, set->body + from, share->count * sizeof *share->body);
+    memcpy(share->normal, set->normal + from, share->count * sizeof *share->normal);
+    return 0;
+}
+
+/* The end of the share's particles in the cell of particle `first`. */
+static size_t cell_end(const sb_sim *sim, size_t first)
+{
+    const sb_wall_share *share = &sim->walls.share;
+    const uint64_t code = sb_cell_code(share->record[first], sim->space.shift);
+    size_t end = first + 1;
+    while (end < share->count && sb_cell_code(share->record[end], sim->space.shift) == code) end++;
+    return end;
+}
+
+/* Sets domains->row to the numbers of particles that go to each rank. */
+static void count_passengers(sb_sim *sim)
+{
+    sb_domains *d = sim->domains;
+    int rank[SB_RANKS_MAX];
+    memset(d->row, 0, (size_t)d->ranks->count * sizeof *d->row);
+    for (size_t first = 0, end; first < sim->walls.share.count; first = end) {
+        end = cell_end(sim, first);
+        const size_t readers = sb_domains_readers(sim, sim->walls.share.record[first], rank);
+        for (size_t k = 0; k < readers; k++) d->row[rank[k]] += end - first;
+    }
+}
+
+/* Fills the buffer, rank after rank. */
+static void board(const sb_sim *sim, delivery *v)
+{
+    const sb_wall_share *share = &sim->walls.share;
+    const sb_domains *d = sim->domains;
+    passenger *place[SB_RANKS_MAX], *next = v->out;
+    int rank[SB_RANKS_MAX];
+    for (int r = 0; r < d->ranks->count; next += d->row[r++]) place[r] = next;
+    for (size_t first = 0, end; first < share->count; first = end) {
+        end = cell_end(sim, first);
+        const size_t readers = sb_domains_readers(sim, share->record[first], rank);
+        for (size_t k = 0; k < readers; k++)
+            for (size_t i = first; i < end; i++)
+                *place[rank[k]]++ =
+                    (passenger){.record = share->record[i], .normal = share->normal[i], .body = share->body[i]};
+    }
+}
+
+/* Sends the buffer's parts and receives those of the other ranks, one after another. */
+static void travel(sb_sim *sim, delivery *v)
+{
+    sb_domains *d = sim->domains;
+    const size_t ranks = (size_t)d->ranks->count, own = (size_t)d->ranks->rank;
+    size_t sends = 0, receives = 0;
+    passenger *from = v->out, *to = v->in;
+    for (size_t r = 0; r < ranks; r++) {
+        const size_t leave = d->row[r], come = d->matrix[r * ranks + own];
+        if (r == own && leave > 0) memcpy(to, from, leave * sizeof *to);
+        if (r != own && leave > 0) d->send[sends++] = (sb_parcel){(int)r, from, leave * sizeof *from};
+        if (r != own && come > 0) d->receive[receives++] = (sb_parcel){(int)r, to, come * sizeof *to};
+        from += leave, to += come;
+    }
+    sb_ranks_start(d->ranks, d->send, sends, d->receive, receives);
+    sb_ranks_finish(d->ranks);
+}
+
+/* Makes the static set of those that have arrived. Returns 0, or -1 without memory. */
+static int settle_in(sb_sim *sim, delivery *v)
+{
+    sb_wall_set *set = &v->set, *old = &sim->walls.set[SB_STATIC];
+    set->count = v->arrived;
+    for (size_t i = 0; i < set->count; i++) {
+        set->record[i] = v->in[i].record;
+        set->body[i] = v->in[i].body;
+        set->normal[i] = v->in[i].normal;
+    }
+    if (sb_cells_build(&set->cells, set->record, set->count, sim->space.shift) != 0 ||
+        sb_walls_near_build(set, &sim->space) != 0)
+        return -1;
+    const sb_wall_set made = *set;
+    *set = *old;
+    *old = made;
+    return 0;
+}
+
+static void end_delivery(delivery *v)
+{
+    sb_free(v->out);
+    sb_free(v->in);
+    sb_free(v->set.record);
+    sb_free(v->set.body);
+    sb_free(v->set.normal);
+    sb_free(v->set.near);
+    sb_cells_free(&v->set.cells);
+}
+
+sb_status sb_walls_divide(sb_sim *sim, sb_error *error)
+{
+    sb_domains *d = sim->domains;
+    const size_t ranks = (size_t)d->ranks->count, own = (size_t)d->ranks->rank;
+    uint64_t *cut = sim->walls.share.cut;
+    if (!cut || memcmp(cut, d->cut, (ranks + 1) * sizeof *cut) == 0) return SB_OK;
+    delivery v = {.sent = 0};
+    count_passengers(sim);
+    sb_domains_gather_row(d);
+    for (size_t r = 0; r < ranks; r++) {
+        v.sent += d->row[r];
+        v.arrived += d->matrix[r * ranks + own];
+    }
+    v.out = sb_alloc_untouched(v.sent, sizeof *v.out);
+    v.in = sb_alloc_untouched(v.arrived, sizeof *v.in);
+    bool failed = allocate(&v.set.record, &v.set.body, &v.set.normal, v.arrived) != 0 || !v.out || !v.in;
+    sb_status status = sb_domains_agree(sim, failed ? sb_fail_memory(error, "boundary particles") : SB_OK, error);
+    if (status == SB_OK) {
+        board(sim, &v);
+        travel(sim, &v);
+        failed = settle_in(sim, &v) != 0;
+        status = sb_domains_agree(sim, failed ? sb_fail_memory(error, "boundary particles") : SB_OK, error);
+        memcpy(cut, d->cut, (ranks + 1) * sizeof *cut);
+    }
+    end_delivery(&v);
+    return status;
+}
