@@ -1,4 +1,4 @@
-/* The files that all ranks of a run write together: pieces of particle files. */
+/* The files that all ranks of a run write together: pieces of particle files, and checkpoints. */
 #include "pair.h"
 
 #include "base/memory.h"
@@ -144,12 +144,74 @@ static void pictures_are_drawn_from_pieces(void **state)
     assert_true(exists("tank/surface/000002.ply"));
 }
 
+/* Enough particles that each rank has whole blocks of a checkpoint, and few steps. */
+#define FINE "--set", "resolution=0.01", "--set", "numerics.settle_steps=0", "--set", "measure.interval=0.001"
+
+/* Whoever writes it, a checkpoint has the same bytes behind its first section, that of times of the clock. */
+static void assert_same_state(const char *a, const char *b)
+{
+    size_t length[2];
+    char *bytes[2] = {bytes_of(a, &length[0]), bytes_of(b, &length[1])}, *state[2];
+    for (int k = 0; k < 2; k++) {
+        state[k] = memmem(bytes[k], length[k], "sim\0\0\0\0\0", 8);
+        assert_non_null(state[k]);
+        length[k] -= (size_t)(state[k] - bytes[k]);
+    }
+    assert_int_equal(length[0], length[1]);
+    assert_memory_equal(state[0], state[1], length[0]);
+    sb_free(bytes[0]);
+    sb_free(bytes[1]);
+}
+
+static void checkpoints_have_the_bytes_of_one_process(void **state)
+{
+    char names[2][16][64], path[2][128];
+    (void)state;
+    NEEDS_MPI();
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "fine", "--quiet", FINE, "--until", "0.002");
+    RUN_ON("3", 0, "measured.yaml", "--out", "fine3", "--quiet", FINE, "--until", "0.002");
+    assert_int_equal(list_checkpoints("fine", names[0]), 1);
+    assert_int_equal(list_checkpoints("fine3", names[1]), 1);
+    for (int k = 0; k < 2; k++)
+        snprintf(path[k], sizeof path[k], "%s/checkpoints/%s", k == 0 ? "fine" : "fine3", names[k][0]);
+    assert_same_state(path[0], path[1]);
+}
+
+/* On the host of rank 1 the disk is full: there is a warning with the rank, the checkpoint before stands, and the run
+   goes on. */
+static void a_full_disk_of_one_rank_leaves_the_checkpoint_before(void **state)
+{
+    char names[16][64];
+    (void)state;
+    NEEDS_MPI();
+    RUN_ON("2", 0, "measured.yaml", "--out", "full", "--quiet", FINE, "--until", "0.002");
+    assert_int_equal(list_checkpoints("full", names), 1);
+    program_on_ranks("1");
+    outcome o =
+        RUN(0, "run", "measured.yaml", "--out", in_folder("full"), "--quiet", FINE, "--until", "0.003", "--resume", ":",
+            "-n", "1", "-x", "LD_PRELOAD=" SB_BINARY_DIR "/libfull_disk.so", SB_BINARY_DIR "/shorebreak", "run",
+            "measured.yaml", "--out", in_folder("full"), "--quiet", FINE, "--until", "0.003", "--resume");
+    program_on_ranks(NULL);
+    assert_int_equal(count_of(o.err, "shorebreak: "), 1);
+    assert_contains(o.err, "no checkpoint at step ");
+    assert_contains(o.err, ": rank 1 cannot write: ");
+    outcome_free(&o);
+    char again[16][64];
+    assert_int_equal(list_checkpoints("full", again), 1);
+    assert_string_equal(again[0], names[0]);
+    RUN_ON("2", 0, "measured.yaml", "--out", "full", "--quiet", FINE, "--until", "0.003", "--resume");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_process_writes_one_piece),   cmocka_unit_test(each_rank_writes_its_piece),
-        cmocka_unit_test(a_run_with_pieces_resumes),      cmocka_unit_test(a_piece_that_cannot_be_written_is_missed),
+        cmocka_unit_test(one_process_writes_one_piece),
+        cmocka_unit_test(each_rank_writes_its_piece),
+        cmocka_unit_test(a_run_with_pieces_resumes),
+        cmocka_unit_test(a_piece_that_cannot_be_written_is_missed),
         cmocka_unit_test(pictures_are_drawn_from_pieces),
+        cmocka_unit_test(checkpoints_have_the_bytes_of_one_process),
+        cmocka_unit_test(a_full_disk_of_one_rank_leaves_the_checkpoint_before),
     };
     return cmocka_run_group_tests(tests, setup, program_teardown);
 }
