@@ -26,6 +26,9 @@ sb_status sb_cluster_observe(run *r, sb_error *error);
 void sb_cluster_find_pressures(run *r);
 /* NULL without memory. */
 sb_frame *sb_cluster_snapshot(run *r);
+/* Gives rank 0 a frame of its own particles, NULL without memory, and lets each other rank write its own as a piece of
+   the particle file of this number. The status and *error are those of the pieces. */
+sb_status sb_cluster_write_pieces(run *r, uint64_t number, sb_frame **frame, sb_error *error);
 uint64_t sb_cluster_hash(run *r);
 sb_energy sb_cluster_energy(run *r);
 sb_status sb_cluster_trigger(run *r, size_t wavemaker, sb_error *error);

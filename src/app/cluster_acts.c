@@ -185,6 +185,7 @@ const cluster_row sb_cluster_rows[ORDERS] = {
     [ORDER_OBSERVE] = {act_observe, NOTED},
     [ORDER_PRESSURES] = {act_pressures, SAME},
     [ORDER_SNAPSHOT] = {act_snapshot, SAME},
+    [ORDER_PIECES] = {sb_cluster_act_pieces, AGREED},
     [ORDER_HASH] = {act_hash, SAME},
     [ORDER_ENERGY] = {act_energy, SAME},
     [ORDER_TRIGGER] = {act_trigger, SAME},

@@ -1,8 +1,10 @@
-/* Checkpoints of several ranks: one file, which rank 0 writes and each rank reads. */
+/* Files of several ranks: checkpoints, which are one file, and pieces of particle files. */
 #include "app/checkpoint_parts.h"
 #include "app/cluster_orders.h"
 #include "base/hash.h"
 #include "mpi/world.h"
+#include "output/particle_format.h"
+#include "output/pvtp.h"
 
 void sb_cluster_save(run *r, bool settling, sb_archive_out *out)
 {
@@ -58,5 +60,21 @@ sb_status sb_cluster_act_load(run *r, const order *given, sb_error *error)
         if (several) status = sb_world_agree(r->cluster.ranks, status, error);
     }
     sb_archive_in_free(&own);
+    return status;
+}
+
+sb_status sb_cluster_act_pieces(run *r, const order *given, sb_error *error)
+{
+    char folder[SB_PATH_MAX];
+    sb_frame *frame = sb_sim_snapshot_own(r->sim);
+    if (sb_cluster_leads(r)) {
+        r->cluster.frame = frame;
+        return SB_OK;
+    }
+    if (!frame) return sb_fail_memory(error, "a frame");
+    sb_measure_fill_frame(r->measure, frame);
+    sb_status status = sb_make_folder(folder, r->directory, SB_PARTICLE_FOLDER, error);
+    if (status == SB_OK) status = sb_pvtp_write_piece(folder, r->cluster.ranks->rank, frame, given->number, error);
+    sb_frame_release(frame);
     return status;
 }

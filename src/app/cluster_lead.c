@@ -89,6 +89,13 @@ sb_frame *sb_cluster_snapshot(run *r)
     return r->cluster.frame;
 }
 
+sb_status sb_cluster_write_pieces(run *r, uint64_t number, sb_frame **frame, sb_error *error)
+{
+    const sb_status status = sb_cluster_order(r, &(order){.what = ORDER_PIECES, .number = number}, error);
+    *frame = r->cluster.frame;
+    return status;
+}
+
 uint64_t sb_cluster_hash(run *r)
 {
     (void)sb_cluster_order(r, &(order){.what = ORDER_HASH}, NULL);

@@ -14,6 +14,7 @@ enum {
     ORDER_OBSERVE,
     ORDER_PRESSURES,
     ORDER_SNAPSHOT,
+    ORDER_PIECES,
     ORDER_HASH,
     ORDER_ENERGY,
     ORDER_TRIGGER,
@@ -48,8 +49,8 @@ sb_status sb_cluster_next(run *r, order *given, sb_error *error);
 /* cluster_lead.c: rank 0 gives the order to the others, if there are any, and does it. */
 sb_status sb_cluster_order(run *r, const order *given, sb_error *error);
 
-cluster_act sb_cluster_act_save, sb_cluster_act_load; /* cluster_files.c */
-cluster_act sb_cluster_act_loads;                     /* cluster_report.c */
+cluster_act sb_cluster_act_save, sb_cluster_act_load, sb_cluster_act_pieces; /* cluster_files.c */
+cluster_act sb_cluster_act_loads;                                            /* cluster_report.c */
 
 static inline bool sb_cluster_several(const run *r)
 {

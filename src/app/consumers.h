@@ -20,7 +20,11 @@
 typedef struct sb_recorder {
     const char *directory;
     const sb_particle_format *format;
-    bool foam; /* files of foam are written beside the particle files */
+    bool foam;    /* files of foam are written beside the particle files */
+    int ranks;    /* above 1: that many write a piece each, and the frame has the particles of rank 0 */
+    bool cleared; /* pieces beyond the count have been removed */
+    sb_error
+        failure; /* of the pieces of the other ranks, of the frame that is given next; set while the thread idles */
     sb_particle_list list;
     uint64_t count, synced; /* files written; of these, synced to disk */
 } sb_recorder;
@@ -31,6 +35,10 @@ sb_consumer_work sb_recorder_work(sb_recorder *recorder);
 sb_status sb_recorder_sync(sb_recorder *recorder, sb_gone *gone, sb_error *error);
 void sb_recorder_save(const sb_recorder *recorder, sb_archive_out *out);
 sb_status sb_recorder_load(sb_recorder *recorder, sb_archive_in *in, sb_error *error);
+/* Removes the pieces of files that the list does not name, once. On several ranks call it before they write pieces. */
+sb_status sb_recorder_clear_pieces(sb_recorder *recorder, sb_error *error);
+/* The number of the next file. */
+uint64_t sb_recorder_next(const sb_recorder *recorder);
 
 /* A folder of numbered pictures of each camera: <folder>/<camera>/NNNNNN.png. */
 typedef struct sb_picture_set {

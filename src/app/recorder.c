@@ -1,6 +1,7 @@
 /* Writes frames as particle files. */
 #include "app/consumers.h"
 #include "output/foam_files.h"
+#include "output/pvtp.h"
 
 #include <errno.h>
 #include <string.h>
@@ -33,14 +34,25 @@ static sb_status start_list(const sb_recorder *recorder, sb_error *error)
     return status;
 }
 
+sb_status sb_recorder_clear_pieces(sb_recorder *recorder, sb_error *error)
+{
+    char folder[SB_PATH_MAX];
+    if (recorder->format != &sb_particles_pvtp || recorder->cleared) return SB_OK;
+    sb_status status = sb_path_join(folder, recorder->directory, SB_PARTICLE_FOLDER, error);
+    if (status == SB_OK) status = sb_pvtp_remove_pieces(folder, recorder->count, error);
+    recorder->cleared = status == SB_OK;
+    return status;
+}
+
 static sb_status open_recorder(void *state, sb_error *error)
 {
-    const sb_recorder *recorder = state;
+    sb_recorder *recorder = state;
     char folder[SB_PATH_MAX];
     sb_status status = sb_make_folder(folder, recorder->directory, SB_PARTICLE_FOLDER, error);
     if (status == SB_OK) status = start_list(recorder, error);
     if (status == SB_OK && recorder->foam)
         status = sb_foam_files_open(recorder->directory, &recorder->list, recorder->count, error);
+    if (status == SB_OK && recorder->ranks == 1) status = sb_recorder_clear_pieces(recorder, error);
     return status == SB_OK ? sb_remove_numbered(folder, recorder->format->ending, recorder->count, error) : status;
 }
 
@@ -55,19 +67,41 @@ static sb_status enter(sb_recorder *recorder, double time, const char *name, sb_
     return status;
 }
 
+uint64_t sb_recorder_next(const sb_recorder *recorder)
+{
+    return recorder->count + 1;
+}
+
 static sb_status record(void *state, const sb_frame *frame, sb_error *error)
 {
     sb_recorder *recorder = state;
     char name[SB_PARTICLE_NAME_MAX], path[SB_PATH_MAX];
-    const uint64_t number = recorder->count + 1;
+    const uint64_t number = sb_recorder_next(recorder);
     sb_particle_format_file(recorder->format, number, name);
+    if (recorder->failure.status != SB_OK)
+        return sb_fail(error, recorder->failure.status, "%s", recorder->failure.text);
     sb_status status = sb_path_join(path, recorder->directory, name, error);
     if (status == SB_OK && recorder->foam) status = sb_foam_files_write(recorder->directory, frame, number, error);
-    if (status == SB_OK) status = recorder->format->write(path, frame, number, error);
+    if (status == SB_OK)
+        status = recorder->ranks > 1 ? sb_pvtp_write(path, frame, number, recorder->ranks, error)
+                                     : recorder->format->write(path, frame, number, error);
     if (status != SB_OK) return status;
     status = enter(recorder, frame->status.time, name, error);
     if (status != SB_OK) (void)unlink(path); /* the list does not name it */
     recorder->count += status == SB_OK;
+    return status;
+}
+
+/* Syncs the pieces of a number, or, of number 0, the folders of the ranks. */
+static sb_status sync_pieces(const sb_recorder *recorder, uint64_t number, sb_gone *gone, sb_error *error)
+{
+    char path[SB_PATH_MAX], folder[SB_PATH_MAX];
+    sb_status status = SB_OK;
+    for (int rank = 0; rank < recorder->ranks && status == SB_OK; rank++) {
+        status = sb_pvtp_piece_path(SB_PARTICLE_FOLDER, rank, number, path, error);
+        sb_path_folder(folder, path);
+        if (status == SB_OK) status = sb_written_sync(recorder->directory, number == 0 ? folder : path, gone, error);
+    }
     return status;
 }
 
@@ -81,6 +115,7 @@ static sb_status sync_one(const sb_recorder *recorder, uint64_t number, sb_gone 
     }
     sb_status status = sb_written_sync(recorder->directory, name, gone, error);
     if (status == SB_OK && recorder->foam) status = sb_written_sync(recorder->directory, foam, gone, error);
+    if (status == SB_OK && recorder->format == &sb_particles_pvtp) status = sync_pieces(recorder, number, gone, error);
     return status;
 }
 

@@ -19,9 +19,9 @@
 
 enum { LOG_STEPS = 100 }; /* steps between the periodic lines of the log */
 
-static sb_frame *make_frame(run *r, sb_error *error)
+/* Completes the simulation's part of a frame; NULL without memory. */
+static sb_frame *complete_frame(const run *r, sb_frame *frame, sb_error *error)
 {
-    sb_frame *frame = sb_cluster_snapshot(r);
     if (!frame) {
         sb_fail_memory(error, "a frame");
         return NULL;
@@ -31,6 +31,11 @@ static sb_frame *make_frame(run *r, sb_error *error)
     frame->status.wall_seconds = sb_run_wall(r);
     frame->status.eta_seconds = sb_progress_eta(&r->progress);
     return frame;
+}
+
+static sb_frame *make_frame(run *r, sb_error *error)
+{
+    return complete_frame(r, sb_cluster_snapshot(r), error);
 }
 
 static void log_picture(run *r, unsigned drawn, double time)
@@ -64,19 +69,40 @@ static sb_status feed_pictures(run *r, sb_error *error)
     return SB_OK;
 }
 
+/* The other ranks write their pieces of the next particle file; the recorder gets the particles of rank 0. */
+static sb_status feed_pieces(run *r, sb_error *error)
+{
+    sb_consumer *consumer = &r->consumers[RECORDER];
+    sb_frame *frame;
+    sb_error reason = {0};
+    sb_consumer_drain(consumer); /* the recorder, and the number of its next file, are then at rest */
+    if (sb_recorder_clear_pieces(&r->recorder, &reason) == SB_OK)
+        sb_cluster_write_pieces(r, sb_recorder_next(&r->recorder), &frame, &reason);
+    else
+        frame = sb_sim_snapshot_own(r->sim);
+    frame = complete_frame(r, frame, error);
+    if (!frame) return SB_FAILED;
+    r->recorder.failure = reason;
+    sb_consumer_feed(consumer, frame);
+    sb_frame_release(frame);
+    return SB_OK;
+}
+
 /* Gives a snapshot to all consumers that are due. */
 static sb_status feed(run *r, sb_error *error)
 {
     const double time = sb_sim_report(r->sim)->time;
+    const bool apart = r->recorder.ranks > 1 && sb_consumer_due(&r->consumers[RECORDER], time);
     bool due = false, others = false;
     for (int c = 0; c < CONSUMERS; c++) {
         due |= sb_consumer_due(&r->consumers[c], time);
-        others |= c != PICTURES && sb_consumer_due(&r->consumers[c], time);
+        others |= c != PICTURES && !(c == RECORDER && apart) && sb_consumer_due(&r->consumers[c], time);
     }
     if (!due) return SB_OK;
     sb_cluster_find_pressures(r);
     r->frames++;
     sb_status status = feed_pictures(r, error);
+    if (status == SB_OK && apart) status = feed_pieces(r, error);
     if (status != SB_OK || !others) return status;
     sb_frame *frame = make_frame(r, error);
     if (!frame) return SB_FAILED;

@@ -6,6 +6,7 @@
 #include "output/foam_files.h"
 #include "output/maps.h"
 #include "output/particle_format.h"
+#include "output/pvtp.h"
 #include "output/vti.h"
 #include "output/wave_table.h"
 #include "render/image.h"
@@ -296,6 +297,8 @@ static sb_status look_at(const finder *f, place in, const char *camera, const ch
     sb_status status = sb_path_join(path, folder, name, f->error);
     if (status != SB_OK || (in == TOP && is_own_folder(name) && is_folder(path))) return status;
     if (by_camera(in) && !camera && is_folder(path)) return look_into(f, in, name, path);
+    if (in == PARTICLES && !camera && sb_pvtp_is_piece_folder(name) && is_folder(path))
+        return look_into(f, in, name, path);
     if (by_camera(in) && !camera) {
         note_other(f, path);
         return SB_OK;

@@ -38,7 +38,7 @@ static void log_saved(run *r)
 /* Writes the state before the step that failed, so that the user can examine the failure. */
 static void write_last_state(run *r)
 {
-    const sb_particle_format *format = r->recorder.format;
+    const sb_particle_format *format = &sb_particles_vtp;
     char path[SB_PATH_MAX], name[SB_PARTICLE_NAME_MAX];
     sb_error reason = {0};
     sb_frame *frame = sb_cluster_snapshot(r);

@@ -162,8 +162,10 @@ static sb_status start_consumers(run *r, sb_error *error)
 
 static void name_consumers(run *r)
 {
-    r->recorder =
-        (sb_recorder){.directory = r->directory, .format = sb_particle_formats[0], .foam = r->scene->foam.enabled};
+    r->recorder = (sb_recorder){.directory = r->directory,
+                                .format = r->scene->output.particle_pieces ? &sb_particles_pvtp : &sb_particles_vtp,
+                                .foam = r->scene->foam.enabled,
+                                .ranks = r->scene->output.particle_pieces ? sb_ranks_count(r->cluster.ranks) : 1};
     r->streamer = (sb_streamer){.log = r->log};
 }
 

@@ -52,11 +52,20 @@ static void warn_of_foam(const sb_scene *scene, sb_warning_visit *visit, void *c
           "not seen; expected render.interval or output.particle_interval above 0, or foam.enabled: false");
 }
 
+static void warn_of_pieces(const sb_scene *scene, sb_warning_visit *visit, void *context)
+{
+    if (!scene->output.particle_pieces || scene->output.particle_interval > 0) return;
+    visit(context,
+          "output.particle_pieces: true, but the run writes no particle files; expected output.particle_interval above "
+          "0, or output.particle_pieces: false");
+}
+
 void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
     char text[256];
     warn_of_stills(scene, visit, context);
     warn_of_foam(scene, visit, context);
+    warn_of_pieces(scene, visit, context);
     for (size_t w = 0; w < scene->wavemaker_count; w++) {
         const sb_wavemaker_parameters *law = &scene->wavemakers[w].law;
         if (isinf(law->start) && !scene->control.enabled) {

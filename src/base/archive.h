@@ -4,7 +4,8 @@
 
    Layout, little-endian: kind (8 bytes), version and 0x01020304 (32 bits each); then sections of name (8 bytes),
    length, checksum (64 bits each) and content. The last section is named "end" and is empty. The checksum covers the
-   name, the content in blocks of SB_ARCHIVE_BLOCK bytes, and the length. */
+   name, the checksum of each block of SB_ARCHIVE_BLOCK bytes of the content, and the length: blocks may be written, and
+   their checksums computed, by several processes. */
 #ifndef SB_BASE_ARCHIVE_H
 #define SB_BASE_ARCHIVE_H
 
@@ -33,6 +34,7 @@ typedef struct sb_archive_out {
     size_t section;       /* position of the open section's head; 0: no section is open */
     uint64_t sum;         /* checksum of the open section's blocks so far */
     int reason;           /* errno of the first failure; sb_archive_close reports it */
+    int rank;             /* of base/archive_ranks.h, in which it failed */
     size_t pending;       /* bytes in the block that is being filled */
     unsigned char block[SB_ARCHIVE_BLOCK];
 } sb_archive_out;
@@ -55,6 +57,9 @@ void sb_put_list(sb_archive_out *out, const void *items, size_t count, size_t si
 void sb_put_list_begin(sb_archive_out *out, size_t count, size_t size);
 void sb_put_list_bytes(sb_archive_out *out, const void *bytes, size_t length);
 void sb_put_text(sb_archive_out *out, const char *text);
+/* Adds whole blocks of a list to an archive on disk at the end of a block, out->pending = 0: their checksums. The
+   caller lets their bytes be written into the file from out->used on. */
+void sb_put_blocks(sb_archive_out *out, const uint64_t *sums, size_t count);
 
 /* Ends the archive. A file is then on disk, synced and renamed. SB_FAILED names the reason why this step or an earlier
    write failed: no new file is left, and an older file of that name stays. */

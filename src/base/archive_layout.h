@@ -25,8 +25,11 @@ static inline uint64_t sb_archive_sum(const unsigned char *head, uint64_t length
 {
     const unsigned char *content = head + SB_SECTION_HEAD;
     uint64_t sum = sb_hash(0, head, SB_ARCHIVE_NAME);
-    for (uint64_t at = 0; at < length; at += SB_ARCHIVE_BLOCK)
-        sum = sb_hash(sum, content + at, length - at < SB_ARCHIVE_BLOCK ? length - at : SB_ARCHIVE_BLOCK);
+    for (uint64_t at = 0; at < length; at += SB_ARCHIVE_BLOCK) {
+        const uint64_t block =
+            sb_hash(0, content + at, length - at < SB_ARCHIVE_BLOCK ? length - at : SB_ARCHIVE_BLOCK);
+        sum = sb_hash(sum, &block, sizeof block);
+    }
     return sb_hash(sum, &length, sizeof length);
 }
 

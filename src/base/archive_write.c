@@ -34,16 +34,21 @@ static void overwrite(sb_archive_out *out, size_t at, const void *bytes, size_t 
     if (!stream)
         memcpy(out->bytes + at, bytes, length);
     else if (fseeko(stream, (off_t)at, SEEK_SET) != 0 || fwrite(bytes, 1, length, stream) != length ||
-             fseeko(stream, 0, SEEK_END) != 0)
+             fseeko(stream, (off_t)out->used, SEEK_SET) != 0)
         out->reason = errno;
 }
 
 /* ---- blocks and sections ---- */
 
+static void add_sum(sb_archive_out *out, uint64_t block)
+{
+    out->sum = sb_hash(out->sum, &block, sizeof block);
+}
+
 static void flush_block(sb_archive_out *out)
 {
     if (out->pending == 0) return;
-    out->sum = sb_hash(out->sum, out->block, out->pending);
+    add_sum(out, sb_hash(0, out->block, out->pending));
     emit(out, out->block, out->pending);
     out->pending = 0;
 }
@@ -95,7 +100,7 @@ static void begin(sb_archive_out *out, const char *kind, uint32_t version)
     char name[SB_ARCHIVE_NAME] = {0};
     memcpy(name, kind, strnlen(kind, sizeof name));
     out->used = out->section = out->pending = 0;
-    out->reason = 0;
+    out->reason = out->rank = 0;
     emit(out, name, sizeof name);
     emit(out, words, sizeof words);
 }
@@ -121,6 +126,9 @@ sb_status sb_archive_close(sb_archive_out *out, sb_error *error)
     if (!out->file.stream) return out->reason ? sb_fail_memory(error, "an archive") : SB_OK;
     if (!out->reason) return sb_atomic_commit(&out->file, 1, error);
     sb_atomic_abort(&out->file);
+    if (out->rank > 0)
+        return sb_fail(error, SB_FAILED, "%.500s: rank %d cannot write: %s", out->file.path, out->rank,
+                       strerror(out->reason));
     return sb_fail(error, SB_FAILED, "%.500s: cannot write: %s", out->file.path, strerror(out->reason));
 }
 
@@ -185,4 +193,12 @@ void sb_put_list(sb_archive_out *out, const void *items, size_t count, size_t si
 void sb_put_text(sb_archive_out *out, const char *text)
 {
     sb_put_list(out, text, strlen(text), 1);
+}
+
+void sb_put_blocks(sb_archive_out *out, const uint64_t *sums, size_t count)
+{
+    for (size_t k = 0; k < count; k++) add_sum(out, sums[k]);
+    if (out->reason) return;
+    out->used += count * SB_ARCHIVE_BLOCK;
+    if (fseeko(out->file.stream, (off_t)out->used, SEEK_SET) != 0) out->reason = errno;
 }

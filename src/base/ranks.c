@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-enum { ROOM = SB_RANKS_MAX * 128 }; /* bytes on the stack for one gather */
+enum { ROOM = 1 << 15 }; /* bytes on the stack for what another rank sends */
 
 void sb_ranks_start(sb_ranks *ranks, const sb_parcel *send, size_t sends, const sb_parcel *receive, size_t receives)
 {
@@ -33,77 +33,140 @@ void sb_ranks_gather(sb_ranks *ranks, const void *own, size_t size, void *all)
     ranks->bytes_sent += ((uint64_t)ranks->count - 1) * size;
 }
 
-/* How many of `left` values of `size` bytes one gather takes. */
-static size_t at_a_time(const sb_ranks *ranks, size_t size, size_t left)
+/* Sends `size` bytes to a rank and receives as many from it; NULL: does not. */
+static void swap(sb_ranks *ranks, int other, void *out, void *in, size_t size)
 {
-    const size_t most = ROOM / (size * (size_t)ranks->count);
-    return most < left ? most : left;
+    const sb_parcel send = {other, out, size}, receive = {other, in, size};
+    sb_ranks_start(ranks, &send, out != NULL, &receive, in != NULL);
+    sb_ranks_finish(ranks);
+}
+
+/* Adds another rank's `count` values to the own ones. */
+typedef void merger(void *values, const void *others, size_t count);
+
+/* Merges the values of all ranks, `size` bytes in all, in place: pairs of ranks exchange what they have so far, so that
+   after log2 N rounds each rank has that of all. Ranks beyond a power of two give theirs to another rank, and get the
+   result from it. The result may not depend on the order: it is one of integers, or a maximum. */
+static void merge_all(sb_ranks *ranks, void *values, size_t size, size_t count, merger *merge)
+{
+    char others[ROOM];
+    const int own = ranks->rank;
+    int paired = 1;
+    while (2 * paired <= ranks->count) paired *= 2;
+    const int beyond = ranks->count - paired;
+    if (own >= paired) {
+        swap(ranks, own - paired, values, NULL, size);
+        swap(ranks, own - paired, NULL, values, size);
+        return;
+    }
+    if (own < beyond) {
+        swap(ranks, own + paired, NULL, others, size);
+        merge(values, others, count);
+    }
+    for (int step = 1; step < paired; step *= 2) {
+        swap(ranks, own ^ step, values, others, size);
+        merge(values, others, count);
+    }
+    if (own < beyond) swap(ranks, own + paired, values, NULL, size);
+}
+
+/* The same of any number of values of `size` bytes each. */
+static void merge_list(sb_ranks *ranks, void *values, size_t size, size_t count, merger *merge)
+{
+    if (!sb_ranks_several(ranks)) return;
+    for (size_t done = 0, some; done < count; done += some) {
+        some = count - done < ROOM / size ? count - done : ROOM / size;
+        merge_all(ranks, (char *)values + done * size, some * size, some, merge);
+    }
+}
+
+static void merge_sums(void *values, const void *others, size_t count)
+{
+    sb_exact *sums = values, other;
+    for (size_t k = 0; k < count; k++) {
+        memcpy(&other, (const char *)others + k * sizeof other, sizeof other);
+        sb_exact_merge(&sums[k], &other);
+    }
 }
 
 void sb_ranks_sum(sb_ranks *ranks, sb_exact *values, size_t count)
 {
-    _Static_assert(SB_RANKS_MAX * sizeof *values <= ROOM, "a gather takes at least one value");
-    if (!sb_ranks_several(ranks)) return;
-    sb_exact all[ROOM / sizeof *values];
-    for (size_t done = 0, some; done < count; done += some) {
-        some = at_a_time(ranks, sizeof *values, count - done);
-        sb_ranks_gather(ranks, values + done, some * sizeof *values, all);
-        for (size_t k = 0; k < some; k++) values[done + k] = all[k];
-        for (size_t r = 1; r < (size_t)ranks->count; r++)
-            for (size_t k = 0; k < some; k++) sb_exact_merge(&values[done + k], &all[r * some + k]);
-    }
+    merge_list(ranks, values, sizeof *values, count, merge_sums);
+}
+
+typedef struct sums_and_largest {
+    double largest;
+    sb_exact sum[SB_RANKS_SUMS];
+} sums_and_largest;
+
+static void merge_sums_and_largest(void *values, const void *others, size_t count)
+{
+    sums_and_largest *own = values;
+    double largest;
+    memcpy(&largest, others, sizeof largest);
+    own->largest = largest > own->largest ? largest : own->largest;
+    merge_sums(own->sum, (const char *)others + offsetof(sums_and_largest, sum), count);
 }
 
 double sb_ranks_sum_and_largest(sb_ranks *ranks, sb_exact *values, size_t count, double value)
 {
-    typedef struct both {
-        double largest;
-        sb_exact sum[SB_RANKS_SUMS];
-    } both;
     if (!sb_ranks_several(ranks)) return value;
-    both own = {.largest = value}, all[SB_RANKS_MAX];
-    const size_t size = offsetof(both, sum) + count * sizeof *values;
+    sums_and_largest own = {.largest = value};
     if (count > 0) memcpy(own.sum, values, count * sizeof *values);
-    sb_ranks_gather(ranks, &own, size, all);
-    for (size_t k = 0; k < count; k++) values[k] = (sb_exact){0};
-    for (size_t r = 0; r < (size_t)ranks->count; r++) {
-        both one; /* packed in the gather */
-        memcpy(&one, (const char *)all + r * size, size);
-        value = one.largest > value ? one.largest : value;
-        for (size_t k = 0; k < count; k++) sb_exact_merge(&values[k], &one.sum[k]);
+    merge_all(ranks, &own, offsetof(sums_and_largest, sum) + count * sizeof *values, count, merge_sums_and_largest);
+    if (count > 0) memcpy(values, own.sum, count * sizeof *values);
+    return own.largest;
+}
+
+static void merge_counts(void *values, const void *others, size_t count)
+{
+    uint64_t *counts = values, other;
+    for (size_t k = 0; k < count; k++) {
+        memcpy(&other, (const char *)others + k * sizeof other, sizeof other);
+        counts[k] += other;
     }
-    return value;
 }
 
 void sb_ranks_add(sb_ranks *ranks, uint64_t *values, size_t count)
 {
-    if (!sb_ranks_several(ranks)) return;
-    uint64_t all[ROOM / sizeof *values];
-    for (size_t done = 0, some; done < count; done += some) {
-        some = at_a_time(ranks, sizeof *values, count - done);
-        sb_ranks_gather(ranks, values + done, some * sizeof *values, all);
-        memset(values + done, 0, some * sizeof *values);
-        for (size_t r = 0; r < (size_t)ranks->count; r++)
-            for (size_t k = 0; k < some; k++) values[done + k] += all[r * some + k];
-    }
+    merge_list(ranks, values, sizeof *values, count, merge_counts);
 }
 
 double sb_ranks_largest(sb_ranks *ranks, double value)
 {
-    if (!sb_ranks_several(ranks)) return value;
-    double all[SB_RANKS_MAX];
-    sb_ranks_gather(ranks, &value, sizeof value, all);
-    for (int r = 0; r < ranks->count; r++) value = all[r] > value ? all[r] : value;
-    return value;
+    return sb_ranks_sum_and_largest(ranks, NULL, 0, value);
 }
 
 bool sb_ranks_any(sb_ranks *ranks, bool flag)
 {
-    if (!sb_ranks_several(ranks)) return flag;
-    bool all[SB_RANKS_MAX];
-    sb_ranks_gather(ranks, &flag, sizeof flag, all);
-    for (int r = 0; r < ranks->count; r++) flag |= all[r];
-    return flag;
+    return sb_ranks_sum_and_largest(ranks, NULL, 0, flag ? 1 : 0) > 0;
+}
+
+/* The numbers that are still on their way by 2^k ranks, for each bit k of their distance, go this far now: number i is
+   for the rank that is i after this one in a ring. */
+static void pass_on(sb_ranks *ranks, uint64_t *number, size_t step)
+{
+    const size_t count = (size_t)ranks->count, own = (size_t)ranks->rank;
+    uint64_t out[SB_RANKS_MAX], in[SB_RANKS_MAX];
+    size_t some = 0;
+    for (size_t i = step; i < count; i++)
+        if (i & step) out[some++] = number[i];
+    const sb_parcel send = {(int)((own + step) % count), out, some * sizeof *out};
+    const sb_parcel receive = {(int)((own + count - step) % count), in, some * sizeof *in};
+    sb_ranks_start(ranks, &send, 1, &receive, 1);
+    sb_ranks_finish(ranks);
+    some = 0;
+    for (size_t i = step; i < count; i++)
+        if (i & step) number[i] = in[some++];
+}
+
+void sb_ranks_swap_numbers(sb_ranks *ranks, const uint64_t *to, uint64_t *from)
+{
+    const size_t count = (size_t)sb_ranks_count(ranks), own = (size_t)sb_ranks_own(ranks);
+    uint64_t number[SB_RANKS_MAX];
+    for (size_t i = 0; i < count; i++) number[i] = to[(own + i) % count];
+    for (size_t step = 1; step < count; step *= 2) pass_on(ranks, number, step);
+    for (size_t i = 0; i < count; i++) from[(own + count - i) % count] = number[i];
 }
 
 void sb_ranks_share(sb_ranks *ranks, int from, void *bytes, size_t size)

@@ -31,6 +31,11 @@ typedef struct sb_transport {
     void (*finish)(sb_ranks *ranks);
     /* all: count * size bytes, by rank; the own ones as well. */
     void (*gather)(sb_ranks *ranks, const void *own, size_t size, void *all);
+    /* Files into which all ranks write, each on its own; NULL: none. `open` opens one that exists, write_at writes at a
+       byte of it, and `close` returns when the bytes are on disk, and frees *file. Each returns 0 or errno. */
+    int (*open)(sb_ranks *ranks, const char *path, void **file);
+    int (*write_at)(void *file, uint64_t at, const void *bytes, size_t size);
+    int (*close)(void *file);
 } sb_transport;
 
 struct sb_ranks {
@@ -65,6 +70,9 @@ void sb_ranks_start(sb_ranks *ranks, const sb_parcel *send, size_t sends, const 
 void sb_ranks_finish(sb_ranks *ranks);
 void sb_ranks_gather(sb_ranks *ranks, const void *own, size_t size, void *all);
 
+/* Sums, counts and largest values are merged in log2(number of ranks) exchanges of pairs of ranks, so that a rank sends
+   and receives no more than so many of them. They must not be between sb_ranks_start and sb_ranks_finish. */
+
 /* Adds up over all ranks, in place. */
 void sb_ranks_sum(sb_ranks *ranks, sb_exact *values, size_t count);
 /* The same, and returns the largest value of all ranks; count <= SB_RANKS_SUMS. */
@@ -75,6 +83,10 @@ void sb_ranks_add(sb_ranks *ranks, uint64_t *values, size_t count);
 double sb_ranks_largest(sb_ranks *ranks, double value);
 /* Whether the flag is set in any rank. */
 bool sb_ranks_any(sb_ranks *ranks, bool flag);
+
+/* Gives each rank a number: to[r] is for rank r, and from[r] is what rank r has for this one. log2(number of ranks)
+   exchanges, of half as many numbers as ranks each (Bruck's algorithm). */
+void sb_ranks_swap_numbers(sb_ranks *ranks, const uint64_t *to, uint64_t *from);
 
 /* Copies rank `from`'s bytes to all ranks. */
 void sb_ranks_share(sb_ranks *ranks, int from, void *bytes, size_t size);

@@ -4,6 +4,8 @@
 #include "base/memory.h"
 #include "base/random.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <pthread.h>
 #include <sched.h>
 #include <stdlib.h>
@@ -165,7 +167,47 @@ static void gather(sb_ranks *ranks, const void *own, size_t size, void *all)
     barrier(t);
 }
 
-static const sb_transport transport = {.name = "threads", .start = start, .finish = finish, .gather = gather};
+/* ---- files: the handle is the descriptor + 1 ---- */
+
+static int open_file(sb_ranks *ranks, const char *path, void **file)
+{
+    const int descriptor = open(path, O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
+    (void)ranks;
+    if (descriptor < 0) return errno;
+    *file = (void *)(intptr_t)(descriptor + 1);
+    return 0;
+}
+
+static int descriptor_of(const void *file)
+{
+    return (int)((intptr_t)file - 1);
+}
+
+static int write_at(void *file, uint64_t at, const void *bytes, size_t size)
+{
+    for (size_t done = 0; done < size;) {
+        const ssize_t some = pwrite(descriptor_of(file), (const char *)bytes + done, size - done, (off_t)(at + done));
+        if (some < 0 && errno != EINTR) return errno;
+        if (some == 0) return EIO;
+        if (some > 0) done += (size_t)some;
+    }
+    return 0;
+}
+
+static int close_file(void *file)
+{
+    const int reason = fsync(descriptor_of(file)) != 0 ? errno : 0;
+    if (close(descriptor_of(file)) != 0 && reason == 0) return errno;
+    return reason;
+}
+
+static const sb_transport transport = {.name = "threads",
+                                       .start = start,
+                                       .finish = finish,
+                                       .gather = gather,
+                                       .open = open_file,
+                                       .write_at = write_at,
+                                       .close = close_file};
 
 /* The thread of a rank: waits until all threads exist. A team of count 0 was given up. */
 static void *run_member(void *context)

@@ -77,4 +77,9 @@ int sb_world_vanished(const world *w);
 
 extern const sb_transport sb_world_transport; /* transport.c */
 
+/* file.c: the functions of files of the transport. */
+int sb_world_open(sb_ranks *ranks, const char *path, void **file);
+int sb_world_write_at(void *file, uint64_t at, const void *bytes, size_t size);
+int sb_world_close(void *file);
+
 #endif

@@ -81,4 +81,10 @@ static void gather(sb_ranks *ranks, const void *own, size_t size, void *all)
     }
 }
 
-const sb_transport sb_world_transport = {.name = "mpi", .start = start, .finish = finish, .gather = gather};
+const sb_transport sb_world_transport = {.name = "mpi",
+                                         .start = start,
+                                         .finish = finish,
+                                         .gather = gather,
+                                         .open = sb_world_open,
+                                         .write_at = sb_world_write_at,
+                                         .close = sb_world_close};

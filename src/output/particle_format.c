@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 /* To add a format, define sb_particles_<name> in a file of its own and add one ROW here. */
-#define ROWS(ROW) ROW(vtp)
+#define ROWS(ROW) ROW(vtp) ROW(pvtp)
 
 #define DECLARE(name) extern const sb_particle_format sb_particles_##name;
 #define POINT(name) &sb_particles_##name,

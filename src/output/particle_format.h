@@ -28,8 +28,10 @@ typedef struct sb_particle_format {
     sb_status (*read_list)(const char *path, sb_particle_list *list, sb_error *error); /* NULL if read is */
 } sb_particle_format;
 
-/* All formats; the last entry is NULL. Runs write the first one. */
+/* All formats; the last entry is NULL. */
 extern const sb_particle_format *const sb_particle_formats[];
+/* Those that runs write: single files, and with output.particle_pieces pieces. */
+extern const sb_particle_format sb_particles_vtp, sb_particles_pvtp;
 
 /* The format of the particle files in a run folder: that whose list exists, or else the first one. */
 const sb_particle_format *sb_particle_format_in(const char *folder);

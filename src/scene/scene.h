@@ -38,6 +38,7 @@ typedef struct sb_checkpoint_settings {
 
 typedef struct sb_output_settings {
     double particle_interval; /* s between particles/NNNNNN.vtp; 0: off */
+    bool particle_pieces;     /* each rank writes its own */
     bool plots;
     sb_checkpoint_settings checkpoint;
 } sb_output_settings;

@@ -78,6 +78,10 @@ static const sb_key output_keys[] = {
      SB_KEY_AT(sb_output_settings, particle_interval), .unit = "s", SB_KEY_NOT_NEGATIVE,
      .fallback = "0",
      .doc = "Simulated time between particle files for ParaView; 0: no particle files."},
+    {.name = "particle_pieces", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_output_settings, particle_pieces),
+     .fallback = "false",
+     .doc = "Whether each rank of a run on [several ranks](mpi.md#particle-files-in-pieces) writes its particles as a "
+            "file of its own, instead of one file that rank 0 gathers and writes."},
     {.name = "plots", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_output_settings, plots),
      .fallback = "true", .flags = SB_KEY_FREE,
      .doc = "Whether to plot forces and gauges at the end, if gnuplot is installed."},

@@ -123,6 +123,8 @@ void sb_sim_find_virial_pressures(sb_sim *sim);
 /* Makes a frame of positions, velocities, pressures and the bodies' displacements; NULL without memory. Together: rank
    0 gets the particles of all, and the frames of the others have none. */
 sb_frame *sb_sim_snapshot(const sb_sim *sim);
+/* The same of this rank's own particles only, with the foam in rank 0. */
+sb_frame *sb_sim_snapshot_own(const sb_sim *sim);
 
 /* Finds all fluid particles in the box [min, max], in a fixed order, for gauges and probes. Positions are in the
    scene's coordinates, m. Beyond periodic sides it finds images, with the id of their original, up to one domain length

@@ -76,6 +76,31 @@ static int sums(sb_ranks *ranks, int round)
     return wrong;
 }
 
+/* Rank a has 1000 a + b + round for rank b. */
+static int numbers(sb_ranks *ranks, int round)
+{
+    uint64_t to[16], from[16];
+    int wrong = 0;
+    for (int r = 0; r < ranks->count; r++) to[r] = (uint64_t)(1000 * ranks->rank + r + round);
+    sb_ranks_swap_numbers(ranks, to, from);
+    for (int r = 0; r < ranks->count; r++) wrong += from[r] != (uint64_t)(1000 * r + ranks->rank + round);
+    return wrong;
+}
+
+/* More values than one message has, of ranks beyond a power of two as well. */
+static int many_counts(sb_ranks *ranks, int round)
+{
+    enum { MANY = 5000 };
+    static _Thread_local uint64_t counts[MANY];
+    const uint64_t n = (uint64_t)ranks->count;
+    int wrong = 0;
+    for (uint64_t k = 0; k < MANY; k++) counts[k] = k * (uint64_t)(ranks->rank + round);
+    sb_ranks_add(ranks, counts, MANY);
+    for (uint64_t k = 0; k < MANY; k++) wrong += counts[k] != k * (n * (n - 1) / 2 + n * (uint64_t)round);
+    wrong += sb_ranks_any(ranks, false) || !sb_ranks_any(ranks, ranks->rank == round % ranks->count);
+    return wrong;
+}
+
 static int collections(sb_ranks *ranks, int round)
 {
     const int n = ranks->count, root = round % n, me = ranks->rank;
@@ -103,7 +128,8 @@ static void work(sb_ranks *ranks, void *context)
 {
     outcome *o = context;
     for (int round = 0; round < ROUNDS; round++)
-        o->wrong[ranks->rank] += exchange_round(ranks, round) + sums(ranks, round) + collections(ranks, round);
+        o->wrong[ranks->rank] += exchange_round(ranks, round) + sums(ranks, round) + collections(ranks, round) +
+                                 numbers(ranks, round) + (round == 1 ? many_counts(ranks, round) : 0);
     o->bytes[ranks->rank] = ranks->bytes_sent;
     o->messages[ranks->rank] = ranks->messages;
 }
@@ -112,7 +138,7 @@ static void everything_arrives(void **state)
 {
     (void)state;
     for (uint64_t seed = 0; seed < 3; seed++)
-        for (int count = 1; count <= 7; count += count < 4 ? 1 : 3) {
+        for (int count = 1; count <= 11; count += count < 4 ? 1 : count < 7 ? 3 : 4) {
             outcome o = {0};
             sb_error error = {0};
             assert_int_equal(sb_ranks_threads_run(count, seed, work, &o, &error), SB_OK);

@@ -1,10 +1,12 @@
 /* Fuzzes a particle file. An input that begins with 'e' is a sequence of edits to a valid file, one that begins with
-   'f' a sequence of edits to a valid file of foam, one with 'g' to a valid grid file; any other input is the file
-   itself. A frame that is read must have finite numbers, and must not change when it is written and read again. */
+   'f' a sequence of edits to a valid file of foam, one with 'g' to a valid grid file; one that begins with 'p' is a
+   list of pieces beside a valid piece; any other input is the file itself. A frame that is read must have finite
+   numbers, and must not change when it is written and read again. */
 #include "fuzz.h"
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "output/pvtp.h"
 #include "output/vti.h"
 #include "output/vtp.h"
 
@@ -118,9 +120,35 @@ static void try_grid(const uint8_t *data, size_t size)
     sb_free(values);
 }
 
+/* A list of pieces leads only to pieces beside it; the one that exists has three particles. */
+static void try_pieces(const uint8_t *data, size_t size)
+{
+    char path[SB_PATH_MAX], beside[SB_PATH_MAX];
+    sb_frame *frame = NULL, *piece = NULL;
+    sb_error error = {0};
+    snprintf(path, sizeof path, "%s", fuzz_save("some.pvtp", data, size));
+    sb_path_folder(beside, path);
+    FUZZ_CHECK(sb_vtp_read(fuzz_save("valid.vtp", (const uint8_t *)valid, length), &piece, NULL) == SB_OK);
+    FUZZ_CHECK(sb_pvtp_write_piece(beside, 0, piece, 1, NULL) == SB_OK);
+    sb_frame_release(piece);
+    const sb_status status = sb_pvtp_read(path, &frame, &error);
+    if (status != SB_OK) {
+        FUZZ_CHECK(!frame);
+        fuzz_check_refusal(status, &error);
+        return;
+    }
+    FUZZ_CHECK(frame->count > 0 && frame->count % 3 == 0);
+    check_finite(frame);
+    sb_frame_release(frame);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     if (!valid) make_valid();
+    if (size > 0 && data[0] == 'p') {
+        try_pieces(data + 1, size - 1);
+        return 0;
+    }
     if (size > 0 && data[0] == 'f') {
         try_foam(data + 1, size - 1);
         return 0;

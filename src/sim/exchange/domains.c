@@ -14,13 +14,13 @@ sb_status sb_domains_create(sb_sim *sim, sb_error *error)
     d->ranks = sim->ranks;
     d->cut = sb_alloc(ranks + 1, sizeof *d->cut);
     d->next = sb_alloc(ranks + 1, sizeof *d->next);
-    d->matrix = sb_alloc(ranks * ranks, sizeof *d->matrix);
+    d->column = sb_alloc(ranks, sizeof *d->column);
     d->row = sb_alloc(ranks + 1, sizeof *d->row);
     d->send = sb_alloc(ranks, sizeof *d->send);
     d->receive = sb_alloc(ranks, sizeof *d->receive);
     d->plan.sends = sb_alloc(ranks, sizeof *d->plan.sends);
     d->plan.receives = sb_alloc(ranks, sizeof *d->plan.receives);
-    if (!d->cut || !d->next || !d->matrix || !d->row || !d->send || !d->receive || !d->plan.sends || !d->plan.receives)
+    if (!d->cut || !d->next || !d->column || !d->row || !d->send || !d->receive || !d->plan.sends || !d->plan.receives)
         return sb_fail_memory(error, "domains");
     return SB_OK;
 }
@@ -30,7 +30,7 @@ void sb_domains_destroy(sb_domains *d)
     if (!d) return;
     sb_free(d->cut);
     sb_free(d->next);
-    sb_free(d->matrix);
+    sb_free(d->column);
     sb_free(d->row);
     sb_free(d->send);
     sb_free(d->receive);
@@ -57,14 +57,14 @@ size_t sb_domains_bytes(const sb_domains *d)
 {
     if (!d) return 0;
     const size_t ranks = (size_t)d->ranks->count;
-    return ranks * ranks * sizeof *d->matrix + d->out_capacity + d->in_capacity +
-           d->migrant_capacity * sizeof *d->migrant + d->plan.run_capacity * sizeof *d->plan.run +
-           d->plan.place_capacity * sizeof *d->plan.place + d->pairs_capacity * sizeof *d->pairs;
+    return 2 * ranks * sizeof *d->column + d->out_capacity + d->in_capacity + d->migrant_capacity * sizeof *d->migrant +
+           d->plan.run_capacity * sizeof *d->plan.run + d->plan.place_capacity * sizeof *d->plan.place +
+           d->pairs_capacity * sizeof *d->pairs;
 }
 
-void sb_domains_gather_row(sb_domains *d)
+void sb_domains_swap_row(sb_domains *d)
 {
-    sb_ranks_gather(d->ranks, d->row, (size_t)d->ranks->count * sizeof *d->row, d->matrix);
+    sb_ranks_swap_numbers(d->ranks, d->row, d->column);
 }
 
 sb_status sb_domains_agree(const sb_sim *sim, sb_status own, sb_error *error)

@@ -39,8 +39,8 @@ typedef struct sb_domains {
     sb_halo_plan plan;
 
     /* buffers */
-    uint64_t *matrix;          /* ranks * ranks: [from * ranks + to] */
-    uint64_t *row;             /* ranks + 1 */
+    uint64_t *row;             /* ranks + 1: numbers for the others */
+    uint64_t *column;          /* ranks: what the others have for this one */
     sb_parcel *send, *receive; /* ranks */
     char *out, *in;            /* bytes sent and received */
     size_t out_capacity, in_capacity;
@@ -80,8 +80,8 @@ static inline bool sb_domains_owns(const sb_domains *domains, uint64_t key)
 /* The same failure in all domains: that of the first rank that has one with a message. */
 sb_status sb_domains_agree(const sb_sim *sim, sb_status own, sb_error *error);
 
-/* Gathers `domains->row`, one number for each rank to which this one sends, into `domains->matrix`. */
-void sb_domains_gather_row(sb_domains *domains);
+/* Gives each rank its number of `domains->row`, and gets those for this one into `domains->column`. */
+void sb_domains_swap_row(sb_domains *domains);
 
 /* first_cut.c. The place of particle i of a set of all particles. */
 typedef sb_record sb_place_of(const sb_sim *sim, const void *set, size_t i);

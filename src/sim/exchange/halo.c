@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-/* Reads from the matrix what this rank receives. Returns the size of the halo. */
+/* Notes what this rank receives. Returns the size of the halo. */
 static size_t plan_receives(sb_sim *sim)
 {
     sb_domains *d = sim->domains;
@@ -13,7 +13,7 @@ static size_t plan_receives(sb_sim *sim)
     size_t halo = 0;
     sim->ghosts.lower = 0;
     for (size_t r = 0; r < ranks; r++) {
-        d->plan.receives[r] = d->matrix[r * ranks + own];
+        d->plan.receives[r] = d->column[r];
         halo += d->plan.receives[r];
         if (r < own) sim->ghosts.lower += d->plan.receives[r];
     }
@@ -39,7 +39,7 @@ static sb_status make_halo(sb_sim *sim, sb_error *error)
     g->halo = g->lower = g->count = 0;
     int failed = sb_domains_plan_sends(sim);
     for (int r = 0; r < d->ranks->count; r++) d->row[r] = d->plan.sends[r];
-    sb_domains_gather_row(d);
+    sb_domains_swap_row(d);
     const size_t halo = plan_receives(sim);
     if (failed == 0) failed = reserve(sim, halo);
     sb_status status =

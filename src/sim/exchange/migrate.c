@@ -136,12 +136,12 @@ static void close_gaps(sb_sim *sim, size_t count)
 static void hand_over(sb_sim *sim, size_t count, size_t arrivals, size_t bytes)
 {
     sb_domains *d = sim->domains;
-    const size_t ranks = (size_t)d->ranks->count, own = (size_t)d->ranks->rank;
+    const size_t ranks = (size_t)d->ranks->count;
     const size_t sends = make_parcels(sim, count, bytes);
     size_t receives = 0;
     char *next = d->in;
     for (size_t r = 0; r < ranks; r++) {
-        const size_t size = d->matrix[r * ranks + own] * bytes;
+        const size_t size = d->column[r] * bytes;
         if (size > 0) d->receive[receives++] = (sb_parcel){(int)r, next, size};
         next += size;
     }
@@ -170,15 +170,15 @@ static int reserve(sb_sim *sim, size_t count, size_t arrivals, size_t bytes)
 sb_status sb_domains_migrate(sb_sim *sim, sb_error *error)
 {
     sb_domains *d = sim->domains;
-    const size_t ranks = (size_t)d->ranks->count, own = (size_t)d->ranks->rank, bytes = particle_bytes(&sim->state);
+    const size_t ranks = (size_t)d->ranks->count, bytes = particle_bytes(&sim->state);
     size_t count = 0, arrivals = 0;
     if (d->recut) memcpy(d->cut, d->next, (ranks + 1) * sizeof *d->cut);
     d->recut = false;
     int failed = find_migrants(sim, &count);
     memset(d->row, 0, ranks * sizeof *d->row);
     for (size_t k = 0; k < count; k++) d->row[d->migrant[k].to]++;
-    sb_domains_gather_row(d);
-    for (size_t r = 0; r < ranks; r++) arrivals += d->matrix[r * ranks + own];
+    sb_domains_swap_row(d);
+    for (size_t r = 0; r < ranks; r++) arrivals += d->column[r];
     if (failed == 0) failed = reserve(sim, count, arrivals, bytes);
     const sb_status status =
         sb_domains_agree(sim, failed ? sb_fail_memory(error, "particles that arrive") : SB_OK, error);

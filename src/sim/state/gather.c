@@ -4,8 +4,6 @@
 
 #include <string.h>
 
-enum { PIECE = 1 << 18 }; /* bytes of a field on their way to the first domain */
-
 void sb_gather_shares(const sb_sim *sim, sb_shares *shares)
 {
     const uint64_t own = sim->state.n;
@@ -14,39 +12,21 @@ void sb_gather_shares(const sb_sim *sim, sb_shares *shares)
     for (int r = 0; r < sb_ranks_count(sim->ranks); r++) shares->all += shares->count[r];
 }
 
-/* Sends a field to the first domain. */
-static void send_field(sb_ranks *ranks, char *field, size_t length)
+void sb_gather_begin(const sb_sim *sim, sb_shares *shares, sb_archive_out *out)
 {
-    for (size_t at = 0; at < length; at += PIECE) {
-        const sb_parcel parcel = {0, field + at, length - at < PIECE ? length - at : PIECE};
-        sb_ranks_start(ranks, &parcel, 1, NULL, 0);
-        sb_ranks_finish(ranks);
-    }
+    sb_gather_shares(sim, shares);
+    sb_archive_ranks_begin(&shares->lists, sim->ranks, out);
 }
 
-/* Receives a domain's field, and writes it. */
-static void write_field(sb_ranks *ranks, int from, size_t length, sb_archive_out *out)
+void sb_gather_list(sb_shares *shares, sb_archive_out *out, void *field, size_t size)
 {
-    char piece[PIECE];
-    for (size_t at = 0; at < length; at += PIECE) {
-        const sb_parcel parcel = {from, piece, length - at < PIECE ? length - at : PIECE};
-        sb_ranks_start(ranks, NULL, 0, &parcel, 1);
-        sb_ranks_finish(ranks);
-        sb_put_list_bytes(out, piece, parcel.size);
-    }
+    static const uint64_t none[SB_RANKS_MAX];
+    sb_archive_ranks_list(&shares->lists, out, field ? shares->count : none, field, size);
 }
 
-void sb_gather_list(const sb_sim *sim, const sb_shares *shares, sb_archive_out *out, void *field, size_t size)
+void sb_gather_end(sb_shares *shares, sb_archive_out *out)
 {
-    sb_ranks *ranks = sim->ranks;
-    if (sb_ranks_own(ranks) > 0) {
-        if (field) send_field(ranks, field, sim->state.n * size);
-        return;
-    }
-    sb_put_list_begin(out, field ? shares->all : 0, size);
-    if (!field) return;
-    sb_put_list_bytes(out, field, sim->state.n * size);
-    for (int r = 1; r < sb_ranks_count(ranks); r++) write_field(ranks, r, shares->count[r] * size, out);
+    sb_archive_ranks_end(&shares->lists, out);
 }
 
 void sb_gather_first(const sb_sim *sim, const sb_shares *shares, void *own, size_t size, void *all)

@@ -2,17 +2,21 @@
 #ifndef SB_SIM_GATHER_H
 #define SB_SIM_GATHER_H
 
+#include "base/archive_ranks.h"
 #include "sim/simulation.h"
 
 /* The particles of each domain, and of all. */
 typedef struct sb_shares {
     uint64_t count[SB_RANKS_MAX], all;
+    sb_archive_ranks lists; /* from sb_gather_begin to sb_gather_end */
 } sb_shares;
 void sb_gather_shares(const sb_sim *sim, sb_shares *shares);
 
-/* Writes a field of all particles as a list: the first domain writes, and receives those of the others in pieces; `out`
-   is NULL in the others. field NULL: an empty list. */
-void sb_gather_list(const sb_sim *sim, const sb_shares *shares, sb_archive_out *out, void *field, size_t size);
+/* Fields of all particles as lists of an archive, which the first domain has; `out` is NULL in the others. Begin counts
+   the particles; then any number of lists (field NULL: an empty one); then the end (base/archive_ranks.h). */
+void sb_gather_begin(const sb_sim *sim, sb_shares *shares, sb_archive_out *out);
+void sb_gather_list(sb_shares *shares, sb_archive_out *out, void *field, size_t size);
+void sb_gather_end(sb_shares *shares, sb_archive_out *out);
 
 /* The part of a saved list of all particles that this domain takes: as many as another one, in their order. */
 typedef struct sb_part {

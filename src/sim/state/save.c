@@ -92,9 +92,10 @@ static void take_settle(sb_archive_in *in, const sb_scene *scene, sb_settle *set
 static void put_particles(const sb_sim *sim, sb_archive_out *out)
 {
     sb_shares shares;
-    sb_gather_shares(sim, &shares);
+    sb_gather_begin(sim, &shares, out);
     for (const sb_state_field *f = sb_state_fields; f->name; f++)
-        if (!f->apart) sb_gather_list(sim, &shares, out, sb_state_entries(&sim->state, f), f->size);
+        if (!f->apart) sb_gather_list(&shares, out, sb_state_entries(&sim->state, f), f->size);
+    sb_gather_end(&shares, out);
 }
 
 void sb_sim_save(const sb_sim *sim, sb_archive_out *out)

@@ -106,21 +106,32 @@ static sb_frame *snapshot_of_all(const sb_sim *sim)
     return all;
 }
 
-sb_frame *sb_sim_snapshot(const sb_sim *sim)
+/* NULL without memory. */
+static sb_frame *snapshot_of_own(const sb_sim *sim)
 {
-    sb_frame *frame;
-    if (sb_ranks_several(sim->ranks))
-        frame = snapshot_of_all(sim);
-    else {
-        frame = create_frame(sim, sim->state.n);
-        if (frame && sb_foam_fill(sim, frame) != 0) {
-            sb_frame_release(frame);
-            frame = NULL;
-        }
-        if (frame) fill_particles(sim, frame);
+    sb_frame *frame = create_frame(sim, sim->state.n);
+    if (frame && sb_ranks_own(sim->ranks) == 0 && sb_foam_fill(sim, frame) != 0) {
+        sb_frame_release(frame);
+        return NULL;
     }
+    if (frame) fill_particles(sim, frame);
+    return frame;
+}
+
+static sb_frame *complete(const sb_sim *sim, sb_frame *frame)
+{
     if (!frame) return NULL;
     fill_bodies(sim, frame);
     fill_status(sim, frame);
     return frame;
+}
+
+sb_frame *sb_sim_snapshot(const sb_sim *sim)
+{
+    return complete(sim, sb_ranks_several(sim->ranks) ? snapshot_of_all(sim) : snapshot_of_own(sim));
+}
+
+sb_frame *sb_sim_snapshot_own(const sb_sim *sim)
+{
+    return complete(sim, snapshot_of_own(sim));
 }

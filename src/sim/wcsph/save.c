@@ -7,8 +7,9 @@ void sb_wcsph_save(const sb_sim *sim, sb_archive_out *out)
 {
     if (!sim->needs.wcsph) return;
     sb_shares shares;
-    sb_gather_shares(sim, &shares);
-    sb_gather_list(sim, &shares, out, sim->state.excess, sizeof *sim->state.excess);
+    sb_gather_begin(sim, &shares, out);
+    sb_gather_list(&shares, out, sim->state.excess, sizeof *sim->state.excess);
+    sb_gather_end(&shares, out);
     if (sb_ranks_own(sim->ranks) > 0) return;
     sb_put_list(out, sim->walls.boundary.excess, sim->walls.boundary.count, sizeof *sim->walls.boundary.excess);
 }

@@ -157,8 +157,30 @@ static void saved_states_have_no_trace_of_ranks(void **state)
     ranks_free(&made);
 }
 
+/* SB_RANKS_RUNS short runs, each with messages in another order (tools/ranks-test). */
+static void many_runs_with_messages_in_any_order(void **state)
+{
+    (void)state;
+    enum { STEPS = 2 };
+    const int runs = atoi(getenv("SB_RANKS_RUNS"));
+    ranks_made made;
+    ranks_make(&ranks_column, &made);
+    ranks_end alone = run_alone(&ranks_column, &made, &(ranks_way){.ranks = 1, .threads = 1, .steps = STEPS});
+    assert_true(runs > 0);
+    for (int k = 1; k <= runs; k++) {
+        const ranks_way way = {.ranks = 2 + k % 4, .threads = 1 + k % 2, .disturb = (uint64_t)k, .steps = STEPS};
+        ranks_end several = ranks_run(&ranks_column, &made, &way);
+        check_same(&ranks_column, &alone, &several, way.ranks);
+        ranks_end_free(&several);
+    }
+    ranks_end_free(&alone);
+    ranks_free(&made);
+}
+
 int main(void)
 {
+    const struct CMUnitTest many[] = {cmocka_unit_test(many_runs_with_messages_in_any_order)};
+    if (getenv("SB_RANKS_RUNS")) return cmocka_run_group_tests(many, NULL, NULL);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_number_of_ranks),
         cmocka_unit_test(each_rank_places_a_part),

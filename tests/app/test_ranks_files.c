@@ -1,0 +1,217 @@
+/* The files that all ranks of a run write together: pieces of particle files, and checkpoints. */
+#include "pair.h"
+
+#include "base/memory.h"
+#include "output/pvd.h"
+#include "output/pvtp.h"
+#include "output/vtp.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define PIECES "output.particle_pieces=true"
+
+static int setup(void **state)
+{
+    if (pair_setup(state) != 0) return -1;
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "whole", "--quiet", "--set", EVERY_THREE);
+    return 0;
+}
+
+#define NEEDS_MPI()                                                                                                    \
+    do {                                                                                                               \
+        if (!program_has_mpi()) {                                                                                      \
+            print_message("this build has no MPI, or there is no mpirun\n");                                           \
+            skip();                                                                                                    \
+        }                                                                                                              \
+    } while (0)
+
+/* Runs it on so many ranks. */
+#define RUN_ON(count, status, ...)                                                                                     \
+    do {                                                                                                               \
+        program_on_ranks(count);                                                                                       \
+        RUN_AND_FORGET(status, "run", __VA_ARGS__);                                                                    \
+        program_on_ranks(NULL);                                                                                        \
+    } while (0)
+
+/* Fails unless the pieces of each time of `run`, one after another, are the particles of the file of the same number of
+   the run "whole". The wall times differ. */
+static void assert_pieces_are_whole(const char *run)
+{
+    sb_particle_list list = {0}, single = {0};
+    sb_error error = {0};
+    assert_int_equal(sb_pvd_read(in_folder("whole/particles.pvd"), &single, &error), SB_OK);
+    if (sb_pvd_read(in_folder("%s/particles-pieces.pvd", run), &list, &error) != SB_OK) fail_msg("%s", error.text);
+    assert_int_equal(list.count, single.count);
+    assert_true(list.count > 3);
+    for (size_t i = 0; i < list.count; i++) {
+        sb_frame *one = NULL, *two = NULL;
+        assert_true(list.entries[i].time == single.entries[i].time);
+        if (sb_vtp_read(in_folder("whole/%s", single.entries[i].file), &one, &error) != SB_OK ||
+            sb_pvtp_read(in_folder("%s/%s", run, list.entries[i].file), &two, &error) != SB_OK)
+            fail_msg("%s", error.text);
+        assert_int_equal(one->count, two->count);
+        assert_int_equal(one->index, two->index);
+        assert_memory_equal(one->position, two->position, 12 * one->count);
+        assert_memory_equal(one->velocity, two->velocity, 12 * one->count);
+        assert_memory_equal(one->pressure, two->pressure, 4 * one->count);
+        assert_memory_equal(one->id, two->id, 4 * one->count);
+        assert_int_equal(one->body_count, two->body_count);
+        for (size_t b = 0; b < one->body_count; b++)
+            assert_memory_equal(&one->bodies[b].force, &two->bodies[b].force, sizeof one->bodies[b].force);
+        sb_frame_release(one);
+        sb_frame_release(two);
+    }
+    assert_true(access(in_folder("%s/particles.pvd", run), F_OK) != 0);
+    sb_particle_list_free(&list);
+    sb_particle_list_free(&single);
+}
+
+static void one_process_writes_one_piece(void **state)
+{
+    (void)state;
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "alone", "--quiet", "--set", EVERY_THREE, "--set", PIECES);
+    assert_pieces_are_whole("alone");
+    assert_true(exists("alone/particles/rank0/000001.vtp"));
+    assert_false(exists("alone/particles/rank1"));
+    assert_same_file("whole", "alone", "energy.csv");
+}
+
+static void each_rank_writes_its_piece(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    RUN_ON("3", 0, "measured.yaml", "--out", "three", "--quiet", "--set", EVERY_THREE, "--set", PIECES);
+    assert_pieces_are_whole("three");
+    sb_frame *piece = NULL;
+    for (int rank = 0; rank < 3; rank++) {
+        assert_int_equal(sb_vtp_read(in_folder("three/particles/rank%d/000002.vtp", rank), &piece, NULL), SB_OK);
+        assert_true(piece->count > 0); /* no rank gathers the particles of all */
+        sb_frame_release(piece);
+    }
+}
+
+/* Resumed by fewer ranks, the run replaces the pieces after the checkpoint, also those of a rank that it has no more.
+ */
+static void a_run_with_pieces_resumes(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    RUN_ON("3", 0, "measured.yaml", "--out", "parts", "--quiet", "--set", EVERY_THREE, "--set", PIECES, "--until",
+           "0.25");
+    assert_true(exists("parts/particles/rank2/000002.vtp"));
+    assert_int_equal(
+        rename(in_folder("parts/particles/rank2/000001.vtp"), in_folder("parts/particles/rank2/000007.vtp")),
+        0); /* as of a run that was killed later */
+    RUN_ON("2", 0, "measured.yaml", "--out", "parts", "--quiet", "--set", EVERY_THREE, "--set", PIECES, "--resume");
+    assert_false(exists("parts/particles/rank2/000007.vtp"));
+    assert_true(exists("parts/particles/rank1/000006.vtp"));
+    assert_false(exists("parts/particles/rank2/000006.vtp"));
+    RUN_ON("2", 0, "measured.yaml", "--out", "parts", "--quiet", "--set", EVERY_THREE, "--overwrite");
+    assert_false(exists("parts/particles/rank2/000002.vtp"));
+    assert_false(exists("parts/particles/000002.pvtp"));
+    assert_same_run("whole", "parts", pair_tables);
+}
+
+/* Where rank 1 should have its folder there is a file, as on a host whose disk does not take it: the times are missed,
+   with one warning that names the rank, and the run goes on. Its status is 2, as for all files that are missing. */
+static void a_piece_that_cannot_be_written_is_missed(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "missed", "--quiet", "--set", PIECES, "--until", "0.02");
+    write_text("missed/particles/rank1", "");
+    program_on_ranks("2");
+    outcome o = RUN(2, "run", "measured.yaml", "--out", "missed", "--quiet", "--set", PIECES, "--overwrite");
+    program_on_ranks(NULL);
+    assert_contains(o.err, "rank 1 on ");
+    assert_contains(o.err, "particles/rank1: is not a directory, expected one of the run's own");
+    outcome_free(&o);
+    assert_true(json_number_of("missed/summary.json", "particle_files") == 0);
+    assert_true(json_number_of("missed/summary.json", "particle_files_missing") > 3);
+    assert_false(exists("missed/particles/000001.pvtp"));
+}
+
+/* `render` and `surface` read pieces as they read single files. */
+static void pictures_are_drawn_from_pieces(void **state)
+{
+    (void)state;
+    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "tank", "--quiet", "--set", PIECES, "--until", "0.1", "--set",
+                   "render.interval=0");
+    RUN_AND_FORGET(0, "surface", "tank", "--quiet");
+    assert_true(exists("tank/surface/000002.ply"));
+}
+
+/* Enough particles that each rank has whole blocks of a checkpoint, and few steps. */
+#define FINE "--set", "resolution=0.01", "--set", "numerics.settle_steps=0", "--set", "measure.interval=0.001"
+
+/* Whoever writes it, a checkpoint has the same bytes behind its first section, that of times of the clock. */
+static void assert_same_state(const char *a, const char *b)
+{
+    size_t length[2];
+    char *bytes[2] = {bytes_of(a, &length[0]), bytes_of(b, &length[1])}, *state[2];
+    for (int k = 0; k < 2; k++) {
+        state[k] = memmem(bytes[k], length[k], "sim\0\0\0\0\0", 8);
+        assert_non_null(state[k]);
+        length[k] -= (size_t)(state[k] - bytes[k]);
+    }
+    assert_int_equal(length[0], length[1]);
+    assert_memory_equal(state[0], state[1], length[0]);
+    sb_free(bytes[0]);
+    sb_free(bytes[1]);
+}
+
+static void checkpoints_have_the_bytes_of_one_process(void **state)
+{
+    char names[2][16][64], path[2][128];
+    (void)state;
+    NEEDS_MPI();
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "fine", "--quiet", FINE, "--until", "0.002");
+    RUN_ON("3", 0, "measured.yaml", "--out", "fine3", "--quiet", FINE, "--until", "0.002");
+    assert_int_equal(list_checkpoints("fine", names[0]), 1);
+    assert_int_equal(list_checkpoints("fine3", names[1]), 1);
+    for (int k = 0; k < 2; k++)
+        snprintf(path[k], sizeof path[k], "%s/checkpoints/%s", k == 0 ? "fine" : "fine3", names[k][0]);
+    assert_same_state(path[0], path[1]);
+}
+
+/* On the host of rank 1 the disk is full: there is a warning with the rank, the checkpoint before stands, and the run
+   goes on. */
+static void a_full_disk_of_one_rank_leaves_the_checkpoint_before(void **state)
+{
+    char names[16][64];
+    (void)state;
+    NEEDS_MPI();
+    RUN_ON("2", 0, "measured.yaml", "--out", "full", "--quiet", FINE, "--until", "0.002");
+    assert_int_equal(list_checkpoints("full", names), 1);
+    program_on_ranks("1");
+    outcome o =
+        RUN(0, "run", "measured.yaml", "--out", in_folder("full"), "--quiet", FINE, "--until", "0.003", "--resume", ":",
+            "-n", "1", "-x", "LD_PRELOAD=" SB_BINARY_DIR "/libfull_disk.so", SB_BINARY_DIR "/shorebreak", "run",
+            "measured.yaml", "--out", in_folder("full"), "--quiet", FINE, "--until", "0.003", "--resume");
+    program_on_ranks(NULL);
+    assert_int_equal(count_of(o.err, "shorebreak: "), 1);
+    assert_contains(o.err, "no checkpoint at step ");
+    assert_contains(o.err, ": rank 1 cannot write: ");
+    outcome_free(&o);
+    char again[16][64];
+    assert_int_equal(list_checkpoints("full", again), 1);
+    assert_string_equal(again[0], names[0]);
+    RUN_ON("2", 0, "measured.yaml", "--out", "full", "--quiet", FINE, "--until", "0.003", "--resume");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_process_writes_one_piece),
+        cmocka_unit_test(each_rank_writes_its_piece),
+        cmocka_unit_test(a_run_with_pieces_resumes),
+        cmocka_unit_test(a_piece_that_cannot_be_written_is_missed),
+        cmocka_unit_test(pictures_are_drawn_from_pieces),
+        cmocka_unit_test(checkpoints_have_the_bytes_of_one_process),
+        cmocka_unit_test(a_full_disk_of_one_rank_leaves_the_checkpoint_before),
+    };
+    return cmocka_run_group_tests(tests, setup, program_teardown);
+}
