@@ -103,7 +103,7 @@ static void travel(sb_sim *sim, delivery *v)
     size_t sends = 0, receives = 0;
     passenger *from = v->out, *to = v->in;
     for (size_t r = 0; r < ranks; r++) {
-        const size_t leave = d->row[r], come = d->matrix[r * ranks + own];
+        const size_t leave = d->row[r], come = d->column[r];
         if (r == own && leave > 0) memcpy(to, from, leave * sizeof *to);
         if (r != own && leave > 0) d->send[sends++] = (sb_parcel){(int)r, from, leave * sizeof *from};
         if (r != own && come > 0) d->receive[receives++] = (sb_parcel){(int)r, to, come * sizeof *to};
@@ -146,15 +146,15 @@ static void end_delivery(delivery *v)
 sb_status sb_walls_divide(sb_sim *sim, sb_error *error)
 {
     sb_domains *d = sim->domains;
-    const size_t ranks = (size_t)d->ranks->count, own = (size_t)d->ranks->rank;
+    const size_t ranks = (size_t)d->ranks->count;
     uint64_t *cut = sim->walls.share.cut;
     if (!cut || memcmp(cut, d->cut, (ranks + 1) * sizeof *cut) == 0) return SB_OK;
     delivery v = {.sent = 0};
     count_passengers(sim);
-    sb_domains_gather_row(d);
+    sb_domains_swap_row(d);
     for (size_t r = 0; r < ranks; r++) {
         v.sent += d->row[r];
-        v.arrived += d->matrix[r * ranks + own];
+        v.arrived += d->column[r];
     }
     v.out = sb_alloc_untouched(v.sent, sizeof *v.out);
     v.in = sb_alloc_untouched(v.arrived, sizeof *v.in);
