@@ -64,10 +64,17 @@ static void build(tank *t)
     snprintf(sides, sizeof sides, "{x_min: %s, x_max: %s, y_min: %s, y_max: %s, z_max: wall}",
              f->repeats[0] ? "periodic" : "wall", f->repeats[0] ? "periodic" : "wall",
              f->repeats[1] ? "periodic" : "wall", f->repeats[1] ? "periodic" : "wall");
-    sb_override set[] = {{"dimensions", flat},        {"resolution", spacing},        {"domain.min", low},
-                         {"domain.max", max},         {"domain.sides", sides},        {"water", water},
-                         {"numerics.jitter", jitter}, {"numerics.walls", "particles"}};
-    const size_t keys = sizeof set / sizeof *set - (f->particles ? 0 : 1);
+    sb_override set[] = {{"dimensions", flat},
+                         {"resolution", spacing},
+                         {"domain.min", low},
+                         {"domain.max", max},
+                         {"domain.sides", sides},
+                         {"water", water},
+                         {"numerics.jitter", jitter},
+                         {"numerics.walls", "particles"},
+                         {"numerics.density", "summed"},
+                         {"numerics.stress_correction", "0"}};
+    const size_t keys = sizeof set / sizeof *set - (f->particles ? 0 : 3);
     sb_error error = {0};
     if (sb_scene_read(SB_SOURCE_DIR "/tests/sim/tank.yaml", tank_preset_names[f->preset], set, keys, &t->scene,
                       &error) != SB_OK ||

@@ -15,7 +15,7 @@ typedef struct tank_form {
     sb_vec3 size;
     double wet_length, depth, jitter;
     bool repeats[2];
-    bool particles; /* walls of boundary particles, whatever the preset */
+    bool particles; /* walls of boundary particles and what they allow, whatever the preset */
 } tank_form;
 
 typedef struct tank {
@@ -29,7 +29,8 @@ typedef struct tank {
    program for such a domain with the default preset: a sea if the water extends to all sides, else a box of water.
    Their one body is "domain". dimensions 2: y is ignored. jitter: in spacings. */
 void tank_make(tank *t, int dimensions, double spacing, sb_vec3 size, double wet_length, double depth, double jitter);
-/* The same with walls of boundary particles, whatever the preset: a test can move them, divide them and add to them. */
+/* The same with walls of boundary particles and what they allow, whatever the preset: a test can move them, divide them
+   and add to them. */
 void tank_of_particles(tank *t, int dimensions, double spacing, sb_vec3 size, double wet_length, double depth,
                        double jitter);
 /* Makes a tank of the same form again, with the numerics of a preset. Later changes of scene and model are lost. */

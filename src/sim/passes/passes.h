@@ -28,8 +28,7 @@ typedef struct sb_body_sums {
    argument that a pass names. */
 typedef struct sb_passes {
     const char *name;
-    /* Computes lists, groups' runs, density, wall vector and diagonal, and for the density correction wall_density and
-       water_squared. */
+    /* Computes lists, groups' runs, density, wall vector and diagonal, and for the density correction water_squared. */
     sb_status (*neighbours)(sb_sim *sim, sb_error *error);
     /* strain_xx and strain: E_i = c (1 - M_i/t_i) of sim/terms/stress_correction.h. */
     void (*strain)(sb_sim *sim);
