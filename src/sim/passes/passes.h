@@ -34,7 +34,7 @@ typedef struct sb_passes {
     void (*strain)(sb_sim *sim);
     /* stress_xx and stress: the mean of E over neighbours and images. Records carry strain_xx. */
     void (*mean_strain)(sb_sim *sim);
-    /* corrected: the velocity after the correction, and with images stress_force. Records carry stress_xx. Returns 0,
+    /* corrected: the velocity after the correction, and stress_force. Records carry stress_xx. Returns 0,
        or -1 without memory. */
     int (*correct)(sb_sim *sim);
     /* eddy: nu_t = min(C_s dr, kappa d)^2 |S|. */
