@@ -7,9 +7,6 @@
 
 #include <math.h>
 
-/* Half-width in spacings of the column in which water is measured, as is its distance: it begins at the face. */
-static const double HALF = SB_ABSORB_DISTANCE;
-
 /* The face from the body's boundary particles, which lie behind it by the wall's offset. */
 static void find_face(const sb_sim *sim, const sb_model_body *body, sb_vec3 direction, sb_absorber *a)
 {
@@ -49,12 +46,13 @@ double sb_column_weight(double x)
     return (far * far * far - 4 * near * near * near) / 6;
 }
 
-/* Volume of the water beside the face over its width: the depth, weighted over 2 HALF spacings. */
+/* Volume of the water beside the face over its width: the depth, weighted over twice the distance ahead of the face at
+   which it is measured, so that the column begins at the face. */
 static double column(sb_sim *sim, const sb_moving_body *moving)
 {
     const sb_absorber *a = moving->absorber;
     const sb_vec3 d = moving->direction;
-    const double width = 0.5 * HALF * sim->model->spacing, from = a->face + moving->displacement + a->distance;
+    const double width = 0.5 * a->distance, from = a->face + moving->displacement + a->distance;
     const bool flat = sim->constant.dimension == 2;
     const size_t n = sim->state.n;
     sb_exact sum = {0};

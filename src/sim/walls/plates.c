@@ -6,9 +6,6 @@
 
 #include <math.h>
 
-/* Half-width in spacings of the column along the paddle's direction, as of a paddle that is one. */
-static const double HALF = SB_ABSORB_DISTANCE;
-
 void sb_plate_find(const sb_sim *sim, size_t body, sb_vec3 direction, sb_absorber *a)
 {
     const sb_model_body *of = &sim->model->bodies[body];
@@ -65,7 +62,7 @@ int sb_plates_measure(sb_sim *sim, sb_moving_body *moving)
 {
     const sb_absorber *a = moving->absorber;
     const size_t count = a->plates, n = sim->state.n;
-    const double width = 0.5 * HALF * sim->model->spacing, pitch = (a->from[1] - a->from[0]) / (double)count;
+    const double width = 0.5 * a->distance, pitch = (a->from[1] - a->from[0]) / (double)count;
     const bool repeats = sb_scene_repeats(sim->scene, a->side[0] > 0 ? 0 : 1) && count > 2;
     sb_exact *sums = sb_alloc(count, sizeof *sums);
     bool enough = sums != NULL;
