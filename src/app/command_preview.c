@@ -113,7 +113,8 @@ static sb_status draw_sampling(preview *p, const sb_camera_key *key, sb_error *e
     float *density = sb_alloc(p->model->wall_count, sizeof *density);
     if (!density) return sb_fail_memory(error, "the density of boundary particles");
     snprintf(title, sizeof title, "boundary particles: %zu", p->model->wall_count);
-    if (p->model->images)
+    const bool images = p->scene->numerics.walls == SB_WALLS_IMAGES;
+    if (images)
         snprintf(title, sizeof title, "walls that reflect water: %zu facets, lines are their edges",
                  p->model->facets.count);
     sb_status status =
@@ -121,7 +122,7 @@ static sb_status draw_sampling(preview *p, const sb_camera_key *key, sb_error *e
     if (status == SB_OK) status = sb_samples_draw(p->model, density, &view, &p->tile, error);
     sb_free(density);
     if (status != SB_OK) return status;
-    sb_preview_facets(p->model, &view, &p->tile);
+    if (images) sb_preview_facets(p->model, &view, &p->tile);
     status = write_note(p, title, 41, 16, error);
     if (status == SB_OK) place_tile(p);
     return status;

@@ -117,7 +117,7 @@ sb_status sb_facet_warnings(const sb_scene *scene, const sb_model *model, sb_war
     snprintf(
         text, sizeof text,
         "numerics.walls: near (%.4g, %.4g, %.4g)%s there are more than %d facets of walls, or %d edges, within %.3g "
-        "m: the run ends when water comes there; expected smoother meshes, or numerics.walls: particles",
+        "m: the run ends when water comes there; expected smoother meshes, or numerics.preset: paper",
         found.first.x, found.first.y, found.first.z, more, found.facets, found.edges, found.width);
     visit(context, text);
     return SB_OK;

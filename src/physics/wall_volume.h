@@ -1,6 +1,6 @@
-/* The wall volume psi of a boundary particle, which is its mass in the density sum: psi_b = gamma rho_0
-   curvature_factor / sum_k W_bk over the boundary particles k within the support radius, b included [A12], [S16, eq.
-   30 with gamma and curvature_factor]. */
+/* Factors on the wall volume of a boundary particle, psi_b = rho_0 gamma curvature_factor / sum_k W_bk over the
+   boundary particles k within the support radius, b included, with which sums over boundary particles give the area of
+   walls. The drag of walls uses them where walls reflect the water. */
 #ifndef SB_PHYSICS_WALL_VOLUME_H
 #define SB_PHYSICS_WALL_VOLUME_H
 

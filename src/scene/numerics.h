@@ -79,7 +79,6 @@ typedef struct sb_numerics {
     sb_turbulence turbulence;
     double smagorinsky;  /* C_s of the eddy viscosity */
     double sound_speed;  /* m/s, in artificial viscosity and wall friction; 0: 10 sqrt(g D) */
-    double wall_gamma;   /* factor on the wall volume; 0: computed from a lattice */
     double wall_spacing; /* spacings between boundary particles */
     double wall_offset;  /* spacings from the physical wall back to its boundary particles */
     double jitter;       /* spacings, amplitude of the random displacement at the start */

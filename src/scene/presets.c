@@ -36,7 +36,6 @@ static const struct {
     {"turbulence",           {"none",        "none",      "sps"}},
     {"smagorinsky",          {"0.1",         "0.1",       "0.1"}},
     {"sound_speed",          {"0",           "0",         "0"}},
-    {"wall_gamma",           {"0",           "1",         "0"}},
     {"wall_spacing",         {"0.8",         "1",         "1"}},
     {"wall_offset",          {"0.75",        "0.6",       "0.75"}},
     {"jitter",               {"0.05",        "0",         "0"}},

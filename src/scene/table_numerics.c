@@ -45,8 +45,7 @@ static const sb_key keys[] = {
            "linear fields; momentum is no longer conserved. Not with `walls: images`."),
     CHOICE(density, density_names,
            "`summed`: density from the kernel sum alone. `completed`: with the density "
-           "correction, which compensates the kernel's missing part at the surface and its "
-           "overlap with walls."),
+           "correction, which compensates the kernel's missing part at the surface; with `walls: images`."),
     CHOICE(solver, solver_names,
            "Method of the pressure solve. `wcsph`: no solve, but explicit steps of weakly compressible water, for "
            "comparison; `preset: wen` has values that fit."),
@@ -74,8 +73,8 @@ static const sb_key keys[] = {
            "0.3 give a warning and values above 0.6 are refused."),
     NUMBER(time_step_max, "s", 0, HUGE_VAL, 0, "Additional upper bound of the time step; 0: none."),
     NUMBER(stress_correction, NULL, 0, 1, 0,
-           "Fraction of the deviatoric particle-packing stress that is removed; 0 leaves the term "
-           "out."),
+           "Fraction of the deviatoric particle-packing stress that is removed, with `walls: images`; 0 leaves the "
+           "term out."),
     NUMBER(stress_memory, NULL, 0, 1e9, 0,
            "Time in sqrt(D/g) after which the stress of the particle packing counts as steady: the "
            "correction leaves it. 0: never."),
@@ -105,9 +104,6 @@ static const sb_key keys[] = {
            "Speed of sound in the terms of artificial_viscosity and wall_friction; 0: 10 sqrt(g D). With `solver: "
            "wcsph` that of the water; 0: 10 times sqrt(g D) or the water's greatest speed at the start, whichever is "
            "more."),
-    NUMBER(wall_gamma, NULL, 0, 5, 0,
-           "Factor gamma of the wall volume; 0: computed so that a lattice of water stays at rest "
-           "at planes and edges. Other values are 0.1 or more, because walls leak below."),
     NUMBER(wall_spacing, "spacings", 0.4, 1.2, 0,
            "Distance between boundary particles. A large distance slows water that slides along a "
            "wall."),
@@ -125,15 +121,16 @@ static const sb_key keys[] = {
 
 static const sb_removed_key removed[] = {
     {"sleep", "this key was removed: still water is always computed; delete the key"},
+    {"wall_gamma", "this key was removed: boundary particles have their published volume; delete the key"},
     {NULL, NULL},
 };
 
-static const double GAMMA_MIN = 0.1; /* below this, water passes walls */
-
-/* What explicit steps cannot do, and what only they can. Without numbers a value is a word. */
-static sb_status check_wcsph(sb_reader *reader, const sb_yaml *map, const sb_numerics *n)
+/* What explicit steps and walls of boundary particles cannot do, and what only explicit steps can. Without numbers a
+   value is a word. */
+static sb_status check_forms(sb_reader *reader, const sb_yaml *map, const sb_numerics *n)
 {
     const bool explicit = n->solver == SB_SOLVER_WCSPH, dynamic = n->walls == SB_WALLS_DYNAMIC;
+    const bool particles = !explicit && n->walls == SB_WALLS_PARTICLES;
     const bool drag = n->wall_shear != SB_SHEAR_NONE || n->wall_friction > 0;
     const struct {
         bool wrong;
@@ -149,25 +146,25 @@ static sb_status check_wcsph(sb_reader *reader, const sb_yaml *map, const sb_num
          "wall_friction 0"},
         {explicit && n->kernel_correction == SB_CORRECTION_CSPM && n->walls == SB_WALLS_IMAGES, "kernel_correction",
          "cspm with walls: images, expected none, or walls: dynamic or particles"},
+        {particles && n->density == SB_DENSITY_COMPLETED, "density", "completed needs walls: images, expected summed"},
+        {particles && n->stress_correction > 0, "stress_correction", "more than 0 needs walls: images, expected 0"},
         {!explicit && dynamic, "walls", "dynamic needs solver: wcsph, expected particles or images"},
         {!explicit && n->kernel_correction != SB_CORRECTION_NONE, "kernel_correction",
          "cspm needs solver: wcsph, expected none"},
         {!explicit && n->density_diffusion > 0, "density_diffusion", "more than 0 needs solver: wcsph, expected 0"},
     };
+    const char *const remedy = explicit    ? "; preset: wen has values that fit"
+                               : particles ? "; preset: paper has values that fit"
+                                           : "";
     for (size_t r = 0; r < sizeof rules / sizeof *rules; r++)
-        if (rules[r].wrong)
-            return sb_reader_fail(reader, map, rules[r].key, "%s%s", rules[r].text,
-                                  explicit ? "; preset: wen has values that fit" : "");
+        if (rules[r].wrong) return sb_reader_fail(reader, map, rules[r].key, "%s%s", rules[r].text, remedy);
     return SB_OK;
 }
 
 static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
 {
     const sb_numerics *numerics = item;
-    if (numerics->wall_gamma > 0 && numerics->wall_gamma < GAMMA_MIN)
-        return sb_reader_fail(reader, map, "wall_gamma", "%g is out of range, expected 0 or a number from %g to 5",
-                              numerics->wall_gamma, GAMMA_MIN);
-    if (numerics->min_iterations <= numerics->max_iterations) return check_wcsph(reader, map, numerics);
+    if (numerics->min_iterations <= numerics->max_iterations) return check_forms(reader, map, numerics);
     return sb_reader_fail(reader, map, "min_iterations", "%d is more than max_iterations, expected at most %d",
                           numerics->min_iterations, numerics->max_iterations);
 }

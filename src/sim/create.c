@@ -174,7 +174,7 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_ranks *
 sb_status sb_sim_find_crowding(const sb_scene *scene, const sb_model *model, sb_crowding *found, sb_error *error)
 {
     *found = (sb_crowding){.facets = SB_NEAR_MAX, .edges = SB_NEAR_EDGES_MAX};
-    if (model->facets.count == 0) return SB_OK;
+    if (model->facets.count == 0 || scene->numerics.walls != SB_WALLS_IMAGES) return SB_OK;
     sb_sim *sim = sb_alloc(1, sizeof *sim);
     if (!sim) return sb_fail_memory(error, "facets of walls");
     sim->scene = scene;

@@ -114,7 +114,7 @@ static void scene_is_written_as_resolved(void **state)
     assert_near(first.fluid.density, 1000, 0);
     char *text = text_of("r3/scene.yaml");
     static const char *const defaults[] = {
-        "density:", "viscosity:", "kernel:", "wall_gamma:", "sides:", "decimation:", "video_rate:"};
+        "density:", "viscosity:", "kernel:", "wall_offset:", "sides:", "decimation:", "video_rate:"};
     for (size_t d = 0; d < sizeof defaults / sizeof defaults[0]; d++) assert_contains(text, defaults[d]);
     sb_free(text);
     /* The written scene gives the same run. */

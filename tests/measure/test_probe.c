@@ -108,7 +108,6 @@ static void add_floor(fake_world *world, double size, sb_model_body *body)
     *body = (sb_model_body){.count = n * rows, .wavemaker = -1};
     model->bodies = body;
     model->body_count = 1;
-    world->scene.numerics.wall_gamma = 0.7;
     world->scene.numerics.wall_offset = 0.75;
     world->scene.numerics.wall_spacing = 0.8;
 }

@@ -100,6 +100,10 @@ static void test_refused_keys(void **state)
     refuse(SCENE_HEAD, "numerics.solvr", "cg", "--set: numerics.solvr: unknown key, did you mean solver?");
     refuse(SCENE_HEAD, "numerics.sleep", "true",
            "--set: numerics.sleep: this key was removed: still water is always computed; delete the key");
+    refuse(
+        SCENE_HEAD, "numerics.wall_gamma", "0.7",
+        "--set: numerics.wall_gamma: this key was removed: boundary particles have their published volume; delete the "
+        "key");
     refuse(SCENE_HEAD, "", "1", "--set: : a part is empty, expected KEY.KEY=VALUE");
     refuse(SCENE_HEAD, "domain..max", "1", "--set: domain..max: a part is empty, expected KEY.KEY=VALUE");
     refuse(SCENE_HEAD, "domain.", "1", "--set: domain.: ends in a dot, expected KEY.KEY=VALUE");

@@ -64,10 +64,17 @@ static void build(tank *t)
     snprintf(sides, sizeof sides, "{x_min: %s, x_max: %s, y_min: %s, y_max: %s, z_max: wall}",
              f->repeats[0] ? "periodic" : "wall", f->repeats[0] ? "periodic" : "wall",
              f->repeats[1] ? "periodic" : "wall", f->repeats[1] ? "periodic" : "wall");
-    sb_override set[] = {{"dimensions", flat},        {"resolution", spacing},        {"domain.min", low},
-                         {"domain.max", max},         {"domain.sides", sides},        {"water", water},
-                         {"numerics.jitter", jitter}, {"numerics.walls", "particles"}};
-    const size_t keys = sizeof set / sizeof *set - (f->particles ? 0 : 1);
+    sb_override set[] = {{"dimensions", flat},
+                         {"resolution", spacing},
+                         {"domain.min", low},
+                         {"domain.max", max},
+                         {"domain.sides", sides},
+                         {"water", water},
+                         {"numerics.jitter", jitter},
+                         {"numerics.walls", "particles"},
+                         {"numerics.density", "summed"},
+                         {"numerics.stress_correction", "0"}};
+    const size_t keys = sizeof set / sizeof *set - (f->particles ? 0 : 3);
     sb_error error = {0};
     if (sb_scene_read(SB_SOURCE_DIR "/tests/sim/tank.yaml", tank_preset_names[f->preset], set, keys, &t->scene,
                       &error) != SB_OK ||
@@ -76,6 +83,8 @@ static void build(tank *t)
     need(t->model.body_count == 1);
     t->scene.domain.side[SB_Z_MAX] = SB_SIDE_OPEN; /* water that is past the lid has left */
     t->wall_capacity = t->normal_capacity = t->model.wall_count;
+    t->facet_capacity = t->model.facets.count;
+    t->edge_capacity = t->model.facets.edge_count;
     sb_model_body *bodies = sb_alloc(BODIES_MAX, sizeof *bodies);
     t->scene.wavemakers = sb_alloc(BODIES_MAX, sizeof *t->scene.wavemakers);
     need(bodies && t->scene.wavemakers);
@@ -153,6 +162,15 @@ void tank_roll(tank *t, sb_vec3 by)
     sb_model *m = &t->model;
     for (size_t i = 0; i < m->fluid_count; i++) m->fluid_position[i] = roll(t, m->fluid_position[i], by);
     for (size_t b = 0; b < m->wall_count; b++) m->wall_position[b] = roll(t, m->wall_position[b], by);
+    for (size_t f = 0; f < m->facets.count; f++) {
+        sb_facet *facet = &m->facets.facets[f];
+        if (facet->edges == 0) continue; /* a side */
+        sb_facet_edge *edge = &m->facets.edges[facet->edge];
+        const sb_vec3 way = sb_vec(roll(t, edge->from, by).x - edge->from.x, 0, 0); /* a plate spans the tank in y */
+        facet->distance += sb_dot(facet->normal, way);
+        for (uint32_t k = 0; k < facet->edges; k++)
+            edge[k].from = sb_add(edge[k].from, way), edge[k].to = sb_add(edge[k].to, way);
+    }
 }
 
 void tank_shift(tank *t, sb_vec3 by)
@@ -190,7 +208,7 @@ void tank_scatter(tank *t, uint64_t seed, double speed)
 void tank_split_patch(tank *t, sb_vec3 min, sb_vec3 max)
 {
     sb_model *m = &t->model;
-    need(!m->images);
+    need(t->scene.numerics.walls != SB_WALLS_IMAGES);
     sb_vec3 *parted = sb_alloc(m->wall_count, sizeof *parted);
     sb_vec3 *normal = sb_alloc(m->wall_count, sizeof *normal);
     need(parted && normal);
@@ -216,6 +234,27 @@ void tank_split_patch(tank *t, sb_vec3 min, sb_vec3 max)
     m->bodies[1].begin = patch_count;
     m->bodies[1].count = m->wall_count - patch_count;
     snprintf(m->bodies[0].name, sizeof m->bodies[0].name, "patch");
+    for (size_t f = 0; f < m->facets.count; f++) m->facets.facets[f].body = 1;
+}
+
+/* Adds the facet of one side of a plate, which ends at z_min and z_max. way: 1 or -1, of its normal along x. */
+static void add_facet(tank *t, uint32_t body, double x, double way, double z_min, double z_max)
+{
+    sb_model *m = &t->model;
+    sb_facets *all = &m->facets;
+    need(sb_grow((void **)&all->facets, &t->facet_capacity, all->count + 1, sizeof *all->facets) == 0);
+    need(sb_grow((void **)&all->edges, &t->edge_capacity, all->edge_count + 2, sizeof *all->edges) == 0);
+    all->facets[all->count++] = (sb_facet){.normal = sb_vec(way, 0, 0),
+                                           .distance = way * x,
+                                           .body = body,
+                                           .edge = (uint32_t)all->edge_count,
+                                           .edges = 2};
+    const double y[2] = {t->scene.dimensions == 2 ? 0 : m->min.y, t->scene.dimensions == 2 ? 0 : m->max.y};
+    for (int end = 0; end < 2; end++)
+        all->edges[all->edge_count++] = (sb_facet_edge){.from = sb_vec(x, y[0], end ? z_max : z_min),
+                                                        .to = sb_vec(x, y[1], end ? z_max : z_min),
+                                                        .inward = sb_vec(0, 0, end ? -1 : 1),
+                                                        .bend = SB_BEND_CONVEX};
 }
 
 size_t tank_add_plate(tank *t, const char *name, double x, double z_min, double z_max, sb_vec3 direction,
@@ -223,7 +262,7 @@ size_t tank_add_plate(tank *t, const char *name, double x, double z_min, double 
 {
     sb_model *m = &t->model;
     sb_scene *s = &t->scene;
-    need(m->body_count < BODIES_MAX && !m->images);
+    need(m->body_count < BODIES_MAX && s->numerics.walls != SB_WALLS_IMAGES);
     const double dr = s->resolution * s->numerics.wall_spacing;
     sb_model_body *body = &m->bodies[m->body_count];
     *body = (sb_model_body){.begin = m->wall_count, .wavemaker = -1, .report = true};
@@ -237,6 +276,9 @@ size_t tank_add_plate(tank *t, const char *name, double x, double z_min, double 
                 sb_vec(x, s->dimensions == 2 ? 0 : m->min.y + ((double)y + 0.5) * dr, z_min + ((double)z + 0.5) * dr),
                 sb_vec(1, 0, 0));
     body->count = m->wall_count - body->begin;
+    const double offset = s->numerics.wall_offset * s->resolution;
+    for (int way = -1; way <= 1; way += 2)
+        add_facet(t, (uint32_t)m->body_count, x + way * offset, way, z_min, z_max);
     if (law) {
         body->wavemaker = (int)s->wavemaker_count;
         sb_wavemaker_use *use = &s->wavemakers[s->wavemaker_count++];
@@ -245,6 +287,11 @@ size_t tank_add_plate(tank *t, const char *name, double x, double z_min, double 
         snprintf(use->body, sizeof use->body, "%s", name);
     }
     return m->body_count++;
+}
+
+void tank_stop_contact(tank *t)
+{
+    t->model.facets.count = 0;
 }
 
 void tank_add_terms(tank *t)

@@ -15,21 +15,22 @@ typedef struct tank_form {
     sb_vec3 size;
     double wet_length, depth, jitter;
     bool repeats[2];
-    bool particles; /* walls of boundary particles, whatever the preset */
+    bool particles; /* walls of boundary particles and what they allow, whatever the preset */
 } tank_form;
 
 typedef struct tank {
     tank_form form;
     sb_scene scene;
     sb_model model;
-    size_t wall_capacity, normal_capacity;
+    size_t wall_capacity, normal_capacity, facet_capacity, edge_capacity;
 } tank;
 
 /* Makes a closed box of `size` (m) with water to `depth` over x in [0, wet_length]. Scene and model are those of the
    program for such a domain with the default preset: a sea if the water extends to all sides, else a box of water.
    Their one body is "domain". dimensions 2: y is ignored. jitter: in spacings. */
 void tank_make(tank *t, int dimensions, double spacing, sb_vec3 size, double wet_length, double depth, double jitter);
-/* The same with walls of boundary particles, whatever the preset: a test can move them, divide them and add to them. */
+/* The same with walls of boundary particles and what they allow, whatever the preset: a test can move them, divide them
+   and add to them. */
 void tank_of_particles(tank *t, int dimensions, double spacing, sb_vec3 size, double wet_length, double depth,
                        double jitter);
 /* Makes a tank of the same form again, with the numerics of a preset. Later changes of scene and model are lost. */
@@ -55,9 +56,13 @@ void tank_scatter(tank *t, uint64_t seed, double speed);
 void tank_split_patch(tank *t, sb_vec3 min, sb_vec3 max);
 
 /* For a tank of particles. Adds a body of boundary particles one spacing apart: a vertical plane across the tank at x
-   from z_min to z_max. It moves along `direction` by `law`, or is static if that is NULL. Returns the body's index. */
+   from z_min to z_max, with facets wall_offset before it on both sides. It moves along `direction` by `law`, or is
+   static if that is NULL. Returns the body's index. */
 size_t tank_add_plate(tank *t, const char *name, double x, double z_min, double z_max, sb_vec3 direction,
                       const sb_wavemaker_parameters *law);
+
+/* For a tank of particles. Removes all facets: there is no contact resolution. */
+void tank_stop_contact(tank *t);
 
 /* Turns on optional parts: stress correction, wall friction, turbulence, viscosity, and a few settling steps. */
 void tank_add_terms(tank *t);

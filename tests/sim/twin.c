@@ -115,7 +115,7 @@ int twin_make(const sb_sim *sim, twin *t)
 double twin_gamma(const sb_sim *sim)
 {
     const sb_numerics *n = &sim->scene->numerics;
-    if (n->wall_gamma > 0) return n->wall_gamma;
+    if (!sim->needs.images) return 1;
     return sb_wall_gamma(n->kernel, sim->scene->dimensions, n->support, n->wall_offset, n->wall_spacing);
 }
 

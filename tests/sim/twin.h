@@ -20,7 +20,7 @@ typedef struct twin {
 int twin_make(const sb_sim *sim, twin *t);
 void twin_free(twin *t);
 
-/* The factor gamma of the simulation's wall volumes: the scene's, or that of a lattice. */
+/* The factor gamma of the simulation's wall volumes: 1, or with images that of a lattice. */
 double twin_gamma(const sb_sim *sim);
 
 /* The fraction of the viscosity with which shear along an axis of a full lattice decays (docs/method.md, section 6). */

@@ -32,7 +32,7 @@ static void test_report_shows_headline_and_largest_error(void **state)
     assert_non_null(study.runs);
     for (size_t i = 0; i < runs; i++) study.runs[i].request = (sb_request){.of = &of, .plan = &plan};
     add(&study.runs[0], 2.1, 0.25);
-    study.runs[0].run.scene.numerics = (sb_numerics){.support = 2.5, .wall_gamma = 1};
+    study.runs[0].run.scene.numerics = (sb_numerics){.support = 2.5};
     add(&study.runs[1], 1.9, 4);
     add(&study.runs[2], (double)NAN, 0.1);
     study.runs[3].state = SB_RESULT_FAILED;

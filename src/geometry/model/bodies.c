@@ -217,7 +217,6 @@ sb_status sb_model_import_bodies(const sb_scene *scene, sb_model *model, sb_erro
     sb_model made = {.min = scene->domain.min,
                      .max = scene->domain.max,
                      .dimensions = scene->dimensions,
-                     .images = scene->numerics.walls == SB_WALLS_IMAGES,
                      .spacing = scene->resolution};
     size_t capacity = 0;
     sb_status status = SB_OK;

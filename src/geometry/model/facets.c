@@ -487,7 +487,6 @@ static int add_sides(builder *b, size_t body)
 
 sb_status sb_model_facets(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
-    if (scene->numerics.walls != SB_WALLS_IMAGES) return SB_OK;
     builder b = {.scene = scene, .model = model, .space = space, .spacing = model->spacing, .out = &model->facets};
     int status = find_plates(&b);
     if (status == 0) status = find_outlines(&b);

@@ -50,7 +50,6 @@ typedef struct sb_model_part {
 typedef struct sb_model {
     sb_vec3 min, max; /* m, the domain; min is the origin of stored positions */
     int dimensions;
-    bool images;             /* walls reflect water */
     double spacing;          /* m */
     double still_depth;      /* m, D: the largest still depth of water */
     double sea_depth;        /* m, the largest depth that a given sea reaches at its sides; 0: there is none */

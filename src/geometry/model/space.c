@@ -40,7 +40,7 @@ double sb_model_strip_width(const sb_model *model)
     return 1e3 * (model->max.x - model->min.x + model->max.z - model->min.z);
 }
 
-/* In spacings: how far the surface that water meets may be from a body's mesh, if walls reflect water. */
+/* In spacings: how far the surface that water meets may be from a body's mesh. */
 static const double SIMPLER = 0.1;
 
 /* The mesh of a body that water meets, in space->simple if it is not the body's own. */
@@ -48,8 +48,7 @@ static sb_status choose_mesh(const sb_model *model, size_t index, sb_model_space
 {
     const sb_model_body *body = model->bodies + index;
     sb_mesh *simple = space->simple + index;
-    sb_status status = SB_OK;
-    if (model->images) status = sb_mesh_simplify(&body->mesh, body->role, SIMPLER * model->spacing, simple, error);
+    const sb_status status = sb_mesh_simplify(&body->mesh, body->role, SIMPLER * model->spacing, simple, error);
     space->mesh[index] = simple->triangle_count > 0 ? simple : &body->mesh;
     return status;
 }

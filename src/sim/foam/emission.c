@@ -7,8 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
-
 /* Uses of random numbers: which ones, and those of each new particle. */
 enum { WHETHER, RADIUS, ANGLE, WAY, LIFE, USES };
 enum { NUMBERS = 1 << 13 }; /* random numbers of a particle of water in a step: USES times those that it emits */
@@ -106,7 +104,7 @@ static sb_foam_particle new_particle(const sb_sim *sim, size_t i, uint32_t k)
     const sb_foam_law *law = &sim->foam->law;
     const sb_f4 v = sim->work.end_velocity[i];
     const float speed = sqrtf(sb_sum3(v * v)), dt = (float)sim->state.time_step;
-    const float radius = (float)sqrt(chance[RADIUS]), angle = (float)(2 * PI * chance[ANGLE]);
+    const float radius = (float)sqrt(chance[RADIUS]), angle = (float)(2 * M_PI * chance[ANGLE]);
     sb_f4 axis[2] = {{0}, {0}};
     if (speed > 0) across(sim, v / sb_splat(speed), axis);
     const sb_f4 aside = (axis[0] * sb_splat(cosf(angle)) + axis[1] * sb_splat(sinf(angle))) * sb_splat(radius);

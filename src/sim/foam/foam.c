@@ -4,8 +4,6 @@
 
 #include <math.h>
 
-static const double PI = 3.14159265358979323846;
-
 /* Speeds are fractions of sqrt(g D), or of sqrt(g dr) for speeds of approach. A calm wave of half the depth's height
    has a speed of approach of about 0.1 sqrt(dr/D) sqrt(g dr), water that falls into water one of sqrt(D/dr) sqrt(g dr).
    A crest with a radius of curvature R has a mean of 0.2 (dr/R)^2 with the default support radius. */
@@ -14,7 +12,7 @@ static sb_foam_law law_of(const sb_sim *sim)
     const sb_constants *c = &sim->constant;
     const float waves = c->wave_speed, lift = sqrtf(c->gravity * c->spacing), time = waves / c->gravity;
     const double reach = (double)(c->support / c->spacing);
-    const double full = c->dimension == 2 ? PI * reach * reach / 3 : PI * reach * reach * reach / 3;
+    const double full = c->dimension == 2 ? M_PI * reach * reach / 3 : M_PI * reach * reach * reach / 3;
     const double lifetime = sim->scene->foam.lifetime;
     return (sb_foam_law){
         .energy = {0.03f * waves * waves, 0.25f * waves * waves},

@@ -28,14 +28,13 @@ typedef struct sb_body_sums {
    argument that a pass names. */
 typedef struct sb_passes {
     const char *name;
-    /* Computes lists, groups' runs, density, wall vector and diagonal, and for the density correction wall_density and
-       water_squared. */
+    /* Computes lists, groups' runs, density, wall vector and diagonal, and for the density correction water_squared. */
     sb_status (*neighbours)(sb_sim *sim, sb_error *error);
     /* strain_xx and strain: E_i = c (1 - M_i/t_i) of sim/terms/stress_correction.h. */
     void (*strain)(sb_sim *sim);
     /* stress_xx and stress: the mean of E over neighbours and images. Records carry strain_xx. */
     void (*mean_strain)(sb_sim *sim);
-    /* corrected: the velocity after the correction, and with images stress_force. Records carry stress_xx. Returns 0,
+    /* corrected: the velocity after the correction, and stress_force. Records carry stress_xx. Returns 0,
        or -1 without memory. */
     int (*correct)(sb_sim *sim);
     /* eddy: nu_t = min(C_s dr, kappa d)^2 |S|. */

@@ -10,8 +10,8 @@
 
 #include <math.h>
 
-/* A column gets other rows when those that it has would be stretched or pressed together by more than these factors. */
-static const double STRETCHED = 1.6, PRESSED = 0.625;
+/* A column gets other rows when those that it has would be stretched or pressed together by more than this factor. */
+static const double STRETCHED = 1.6;
 
 /* A row with half a particle owed lets one in where no other is nearer than NEAR, in spacings of the rows; with less,
    where none is nearer than FAR. Water that has turned round does not come back as a lattice. */
@@ -211,7 +211,7 @@ static void set_rows(const sb_sim *sim, sb_strip_side *s, size_t column, double 
 {
     const double dr = sim->scene->resolution, has = s->row_count[column] * dr;
     double *owed = s->owed + column * s->rows, sum = 0;
-    if (has > 0 && depth < STRETCHED * has && depth > PRESSED * has) return;
+    if (has > 0 && depth < STRETCHED * has && depth > 1 / STRETCHED * has) return;
     const int wanted = depth > 0.5 * dr ? (int)fmin(fmax(round(depth / dr), 1), (double)s->rows) : 0;
     if (wanted == s->row_count[column]) return;
     for (int k = 0; k < s->row_count[column]; k++) sum += owed[k];

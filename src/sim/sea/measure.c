@@ -15,9 +15,9 @@ enum { ACROSS = 7, OVER_DEPTH = 3 };
 static const double gauss_at[OVER_DEPTH] = {0.1127016653792583, 0.5, 0.8872983346207417};
 static const double gauss_weight[OVER_DEPTH] = {5 / 18.0, 8 / 18.0, 5 / 18.0};
 
-/* A station with less water than this many spacings, or whose share would be outside of these bounds, has no outgoing
-   wave. */
-static const double LEAST_DEPTH = 1.5, SHARE_MIN = 0.8, SHARE_MAX = 1.25;
+/* A station with less water than LEAST_DEPTH spacings, or whose share would be beyond SHARE_MIN or its inverse, has no
+   outgoing wave. */
+static const double LEAST_DEPTH = 1.5, SHARE_MIN = 0.8;
 
 static const double DAMPING = 0.70710678; /* Butterworth's */
 
@@ -208,7 +208,7 @@ static void measure_station(sb_sim *sim, const sb_strip_side *s, size_t station)
     const double still = volume_below(sim, s, station, sim->scene->sea.level, &area), reach = reach_of(sim);
     if (o->share == 0) {
         o->share = sim->strip->still && volume > 0 ? still / volume : 1;
-        o->share = o->share > SHARE_MIN && o->share < SHARE_MAX ? o->share : 1;
+        o->share = o->share > SHARE_MIN && o->share < 1 / SHARE_MIN ? o->share : 1;
     }
     const double wave_speed = sqrt(g * fmax(in.depth, dr));
     const times t = {reach / wave_speed, fmax(in.depth, dr) / wave_speed, s->far / wave_speed};

@@ -24,8 +24,6 @@ const sb_work_view sb_work_views[] = {
     {WORK(wall), FROM(NEIGHBOURS, FOAM), .unit = "kg/m^4", .needed = SB_ALWAYS},
     {WORK(image_push), FROM(NEIGHBOURS, FORCES), .unit = "m/s^2", .needed = SB_NEEDS(images)},
     {WORK(density), FROM(NEIGHBOURS, AFTER), .unit = "kg/m^3", .needed = SB_ALWAYS},
-    {WORK(wall_density), FROM(NEIGHBOURS, DENSITY_CORRECTION), .unit = "kg/m^3",
-     .needed = SB_NEEDS(density_correction)},
     {WORK(water_squared), FROM(NEIGHBOURS, DENSITY_CORRECTION), .unit = "kg^2/m^8",
      .needed = SB_NEEDS(density_correction)},
     {WORK(diagonal), FROM(NEIGHBOURS, AFTER), .unit = "kg^2 s^2/m^8", .needed = SB_ALWAYS},

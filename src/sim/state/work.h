@@ -73,7 +73,6 @@ typedef struct sb_work {
     sb_f4 *wall;          /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib */
     sb_f4 *image_push;    /* m/s^2, by the hydrostatic part of the pressure of images; NULL: walls do not reflect */
     float *density;       /* kg/m^3, density correction included */
-    float *wall_density;  /* kg/m^3, the walls' part of it */
     float *water_squared; /* |sum_j m grad W_ij|^2 */
     float *diagonal;      /* -a_ii > 0 for q as unknown; over dt^2 before the stage pressure; 0: no pressure here */
 

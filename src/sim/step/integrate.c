@@ -14,11 +14,11 @@ typedef struct fastest {
     size_t particle;
 } fastest;
 
-/* Fraction of the velocity that remains in this step. With images the damping is critical for the slowest oscillation:
-   more would hold back the water's levels. */
+/* Fraction of the velocity that remains in this step. The damping is critical for the slowest oscillation: more would
+   hold back the water's levels. */
 static float kept(const sb_sim *sim)
 {
-    const bool by_slowest = sim->policy->keep < 1 && sim->needs.images && sim->constant.slowest > 0;
+    const bool by_slowest = sim->policy->keep < 1 && sim->constant.slowest > 0;
     return by_slowest ? expf(-2 * sim->constant.slowest * (float)sim->state.time_step) : sim->policy->keep;
 }
 

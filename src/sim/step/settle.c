@@ -23,7 +23,7 @@ static const double CALM = 0.002; /* highest speed of calm water, over sqrt(g D)
 enum { TRIAL_STEPS = 60 };
 static const double STILL_FALLING = 0.7;
 
-/* With images: highest mean speed of a group of cells with at least FLOW_PARTICLES particles in water at rest, over
+/* Highest mean speed of a group of cells with at least FLOW_PARTICLES particles in water at rest, over
    sqrt(g D). */
 enum { FLOW_PARTICLES = 16 };
 static const double FLOW = 0.003;
@@ -143,14 +143,14 @@ static double flow_of(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_M
     return n < FLOW_PARTICLES ? 0 : sqrt((double)sb_sum3(sum * sum)) / (double)n;
 }
 
-/* Ends settling if further damped steps would change little. With images the flow between basins must have ceased as
-   well: its energy is small beside that of the motion of single particles. */
+/* Ends settling if further damped steps would change little. The flow between basins must have ceased as well: its
+ * energy is small beside that of the motion of single particles. */
 static void judge_trial(sb_sim *sim)
 {
     sb_settle *settle = &sim->state.settle;
     if ((settle->done - CREEP_FIRST) % TRIAL_STEPS != 0) return;
     const double kinetic = sb_sim_energy(sim).kinetic;
-    const double flow = sim->needs.images ? sb_sum_groups(sim, 0, flow_of, NULL) : 0;
+    const double flow = sb_sum_groups(sim, 0, flow_of, NULL);
     const bool flows = flow > FLOW * (double)sim->constant.wave_speed;
     if (kinetic > STILL_FALLING * settle->kinetic && !flows) settle->most = settle->done;
     settle->kinetic = kinetic;

@@ -8,8 +8,8 @@
    passing waves scatter (docs/decisions/0015). */
 static const float SLACK = 0.003f;
 
-/* At the start, an excess of the density sum above the walls' part plus this fraction of the rest density is an overlap
-   of particles. It is not corrected, so that pressure separates them. */
+/* At the start, an excess of the density sum above this fraction of the rest density is an overlap of particles. It is
+   not corrected, so that pressure separates them. */
 static const float OVERLAP = 0.1f;
 
 /* A c_i outside of its bounds returns to them within the time in which a long wave crosses this many support radii. */
@@ -20,13 +20,11 @@ void sb_density_correction_clear(sb_sim *sim)
     for (size_t i = 0; sim->state.density_correction && i < sim->state.n; i++) sim->state.density_correction[i] = NAN;
 }
 
-/* The c_i of a particle after this step. own: its c_i before, NAN in the first step; density: the density sum;
-   by_walls: the walls' part of it; square: |sum_j m grad W_ij|^2 over the water; share: fraction of the excess over the
-   bounds that is removed now. */
-static float corrected(const sb_constants *c, float own, float density, float by_walls, float square, float share)
+/* The c_i of a particle after this step. own: its c_i before, NAN in the first step; density: the density sum; square:
+   |sum_j m grad W_ij|^2; share: fraction of the excess over the bounds that is removed now. */
+static float corrected(const sb_constants *c, float own, float density, float square, float share)
 {
-    if (isnan(own)) own = fmaxf(c->rest_density - density, -by_walls - OVERLAP * c->rest_density);
-    if (by_walls > 0) return own;
+    if (isnan(own)) own = fmaxf(c->rest_density - density, -OVERLAP * c->rest_density);
     const float slack = SLACK * c->rest_density;
     const float least = c->bulk_deficit - slack, most = c->bulk_deficit + 2 * c->surface_deficit * square + slack;
     const float bound = own > most ? most : own < least ? least : own;
@@ -44,8 +42,7 @@ sb_status sb_stage_density_correction(sb_sim *sim, sb_error *error)
     for (size_t i = 0; i < n; i++) {
         if (strip && sb_strip_side_of(strip, sim->state.position[i])) continue; /* it keeps its own */
         float *own = &sim->state.density_correction[i];
-        *own = corrected(&sim->constant, *own, sim->work.density[i], sim->work.wall_density[i],
-                         sim->work.water_squared[i], share);
+        *own = corrected(&sim->constant, *own, sim->work.density[i], sim->work.water_squared[i], share);
         sim->work.density[i] += *own;
     }
     return SB_OK;

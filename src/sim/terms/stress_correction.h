@@ -20,19 +20,18 @@
 #include "sim/simulation.h"
 
 /* Least t_i of a particle that is corrected. Below it the free surface is near, and M_i shows the surface instead of
-   the packing. With images the correction acts beside walls, too, where a step from nothing to the whole stirs water at
-   rest over slopes: it begins at LEAST and is whole from WHOLE on. */
-static const float SB_STRESS_FULL = 0.9f, SB_STRESS_LEAST = 0.85f, SB_STRESS_WHOLE = 0.95f;
+   the packing. The correction acts beside walls, too, where a step from nothing to the whole stirs water at rest over
+   slopes: it begins at LEAST and is whole from WHOLE on. */
+static const float SB_STRESS_LEAST = 0.85f, SB_STRESS_WHOLE = 0.95f;
 
 /* The c of a particle with t_i. */
-static inline float sb_stress_share(const sb_sim *sim, float whole, float t)
+static inline float sb_stress_share(float whole, float t)
 {
-    if (!sim->needs.images) return t >= SB_STRESS_FULL ? whole : 0;
     const float part = (t - SB_STRESS_LEAST) / (SB_STRESS_WHOLE - SB_STRESS_LEAST);
     return part >= 1 ? whole : part > 0 ? whole * part : 0;
 }
 
-/* With images: the same for films. Drops on walls have less. */
+/* The same for films. Drops on walls have less. */
 static const float SB_STRESS_FILM_LEAST = 0.3f, SB_STRESS_FILM_WHOLE = 0.45f;
 
 /* Sums over neighbours of the slope times the offset, the offset's square, and 1. */
@@ -52,7 +51,7 @@ static inline float sb_stress_between_0_and_1(float value)
     return value >= 1 ? 1 : value > 0 ? value : 0;
 }
 
-/* The c of a particle of a film, with images (docs/method.md, M15f). all: over all neighbours; images: over those that
+/* The c of a particle of a film (docs/method.md, M15f). all: over all neighbours; images: over those that
    are images. Beside a wall at right angles to the surface no more of the gradient is due to images than of the
    neighbours: `below` is 0. */
 static inline float sb_stress_film_share(int dimension, float whole, float t, sb_stress_sums all, sb_stress_sums images)

@@ -305,30 +305,37 @@ static void relate(const sb_sim *sim, sb_near *near)
     near->simple = !near->oblique;
 }
 
+size_t sb_mirrors_of_block(const sb_sim *sim, sb_record record, size_t *end)
+{
+    const sb_mirrors *m = &sim->walls.mirrors;
+    const int shift = sim->space.shift + 1;
+    const uint64_t code = block_code(record[0] >> shift, record[1] >> shift, record[2] >> shift);
+    size_t at = 0, above = m->entries;
+    while (at < above) {
+        const size_t middle = (at + above) / 2;
+        if (m->entry[middle].block < code)
+            at = middle + 1;
+        else
+            above = middle;
+    }
+    for (*end = at; *end < m->entries && m->entry[*end].block == code;) ++*end;
+    return at;
+}
+
 void sb_mirrors_near(const sb_sim *sim, const sb_group *group, sb_f4 low, sb_f4 high, sb_near *near)
 {
     const sb_mirrors *m = &sim->walls.mirrors;
     near->count = near->edge_count = 0;
     near->full = near->moves = false;
-    const sb_record first = sim->state.position[group->first];
-    const int shift = sim->space.shift + 1;
-    const uint64_t code = block_code(first[0] >> shift, first[1] >> shift, first[2] >> shift);
-    size_t at = 0, end = m->entries;
-    while (at < end) {
-        const size_t middle = (at + end) / 2;
-        if (m->entry[middle].block < code)
-            at = middle + 1;
-        else
-            end = middle;
-    }
-    if ((at == m->entries || m->entry[at].block != code) && m->moving_count == 0) return;
+    size_t end, at = sb_mirrors_of_block(sim, sim->state.position[group->first], &end);
+    if (at == end && m->moving_count == 0) return;
     const sb_vec3 lower = sb_vec((double)low[0], (double)low[1], (double)low[2]);
     const sb_vec3 upper = sb_vec((double)high[0], (double)high[1], (double)high[2]);
     box b = {.corner = sb_vec((double)group->corner[0], (double)group->corner[1], (double)group->corner[2])};
     b.middle = sb_add(b.corner, sb_scale(sb_add(lower, upper), 0.5));
     b.half = sb_scale(sb_sub(upper, lower), 0.5);
     b.radius = sb_norm(b.half) + (double)sim->constant.support / sim->space.quantum;
-    for (; at < m->entries && m->entry[at].block == code; at++) consider(sim, &b, m->entry[at].mirror, near);
+    for (; at < end; at++) consider(sim, &b, m->entry[at].mirror, near);
     for (size_t k = 0; k < m->moving_count; k++) consider(sim, &b, m->moving[k], near);
     relate(sim, near);
 }

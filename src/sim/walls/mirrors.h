@@ -1,4 +1,5 @@
-/* Mirrors: the facets of bodies and of the domain's sides, at which water near them is reflected. Lengths in quanta. */
+/* Mirrors: the facets of bodies and of the domain's sides, at which water near them is reflected or, with boundary
+   particles, only stopped. Lengths in quanta. */
 #ifndef SB_SIM_MIRRORS_H
 #define SB_SIM_MIRRORS_H
 
@@ -67,16 +68,8 @@ void sb_mirrors_near(const sb_sim *sim, const sb_group *group, sb_f4 low, sb_f4 
    bodies as they are placed. *place: the first such place, m. Returns 0, or -1 without memory. */
 int sb_mirrors_crowded(const sb_sim *sim, size_t *count, sb_vec3 *place);
 
-/* A contact of particle i with the facet of a plane of its group. */
-typedef struct sb_facet_contact {
-    uint32_t plane; /* of the group */
-    float push;     /* quanta, along the plane's normal */
-} sb_facet_contact;
-
-/* Finds a facet that particle i would come too near to, or pass, in this step with this velocity. Where it would pass
-   several, the one that takes the least push: of two facets at a convex edge one push is enough, and at a concave one
-   the next call finds the other. Returns false if there is none. */
-bool sb_mirrors_contact(const sb_sim *sim, const sb_group *group, size_t i, sb_f4 velocity, sb_facet_contact *contact);
+/* The entries of the block that a record is in, [returned, *end) of walls.mirrors.entry: facets of static bodies. */
+size_t sb_mirrors_of_block(const sb_sim *sim, sb_record record, size_t *end);
 
 /* Velocity of the wall, m/s. */
 sb_f4 sb_mirror_velocity(const sb_sim *sim, uint32_t mirror);

@@ -65,7 +65,7 @@ int sb_plates_measure(sb_sim *sim, sb_moving_body *moving)
 {
     const sb_absorber *a = moving->absorber;
     const size_t count = a->plates, n = sim->state.n;
-    const double width = 0.5 * HALF * sim->model->spacing, pitch = (a->from[1] - a->from[0]) / (double)count;
+    const double width = 0.5 * a->distance, pitch = (a->from[1] - a->from[0]) / (double)count;
     const bool repeats = sb_scene_repeats(sim->scene, a->side[0] > 0 ? 0 : 1) && count > 2;
     sb_exact *sums = sb_alloc(count, sizeof *sums);
     bool enough = sums != NULL;

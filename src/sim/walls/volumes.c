@@ -1,4 +1,5 @@
-/* Wall volumes psi of boundary particles [A12] (docs/method.md, M16, M16a), and images beyond periodic sides. */
+/* Wall volumes psi of boundary particles [A12] (docs/method.md, M16, and with images M16a), and images beyond periodic
+   sides. */
 #include "base/memory.h"
 #include "physics/wall_volume.h"
 #include "sim/simulation.h"
@@ -47,10 +48,10 @@ int sb_wall_volumes(const sb_sim *sim, sb_wall_set *set, bool only_own)
     float *psi = sb_alloc_untouched(set->count, sizeof *psi);
     if (!psi) return -1;
     const sb_numerics *n = &sim->scene->numerics;
-    const bool of_lattice = n->wall_gamma == 0;
+    /* With images they only weigh the drag of walls: its sums then give the area of a wall, at edges, too. */
+    const bool of_lattice = sim->needs.images;
     const double gamma =
-        of_lattice ? sb_wall_gamma(n->kernel, sim->constant.dimension, n->support, n->wall_offset, n->wall_spacing)
-                   : n->wall_gamma;
+        of_lattice ? sb_wall_gamma(n->kernel, sim->constant.dimension, n->support, n->wall_offset, n->wall_spacing) : 1;
     const double scale = gamma * (double)sim->constant.rest_density;
 #pragma omp parallel for schedule(dynamic, 64)
     for (size_t i = 0; i < set->count; i++) {

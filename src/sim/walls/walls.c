@@ -182,7 +182,7 @@ sb_status sb_walls_create(sb_sim *sim, sb_error *error)
     if (sim->needs.dynamic_walls && sb_boundary_create(sim) != 0)
         return sb_fail_memory(error, "dynamic boundary particles");
     if (sb_walls_share(sim) != 0) return sb_fail_memory(error, "boundary particles");
-    if (sim->needs.images && (status = sb_mirrors_create(sim, error)) != SB_OK) return status;
+    if ((status = sb_mirrors_create(sim, error)) != SB_OK) return status;
     const sb_wall_set *set = &sim->walls.set[SB_MOVING];
     sim->walls.rest.count = set->count;
     sim->walls.rest.record = sb_alloc_untouched(set->count, sizeof *sim->walls.rest.record);

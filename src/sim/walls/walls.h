@@ -8,9 +8,10 @@
 sb_status sb_paddles_create(sb_sim *sim, sb_error *error);
 sb_status sb_walls_create(sb_sim *sim, sb_error *error);
 void sb_walls_destroy(sb_sim *sim);
-/* sim/walls/volumes.c: psi_b = gamma rho_0 / sum_k W_bk over the boundary particles k of `set` within h, b included
-   [A12, eq. 4; S16, eq. 30]. only_own: only over those of the same body. The set must not have images yet. Dynamic
-   boundary particles have the mass of a water particle instead. Returns 0, or -1 without memory. */
+/* sim/walls/volumes.c: psi_b = rho_0 / sum_k W_bk over the boundary particles k of `set` within h, b included
+   [A12, eq. 4; S16, eq. 30]. only_own: only over those of the same body. The set must not have images yet. With images
+   the factor of a lattice precedes (physics/wall_volume.h). Dynamic boundary particles have the mass of a water
+   particle instead. Returns 0, or -1 without memory. */
 int sb_wall_volumes(const sb_sim *sim, sb_wall_set *set, bool only_own);
 /* Adds the images beyond periodic sides, with the volume, body and normal of their originals. Returns 0, or -1 without
    memory. */

@@ -122,7 +122,7 @@ static void check_volumes(const setup *s)
     sb_reference_cloud set = t->reference.cloud;
     size_t all = set.wall_count;
     double gamma = twin_gamma(s->sim), worst = 0;
-    const bool curved = s->sim->scene->numerics.wall_gamma == 0;
+    const bool curved = s->sim->needs.images;
     double *psi = sb_alloc(all, sizeof *psi);
     assert_non_null(psi);
     set.wall_count = t->static_count;

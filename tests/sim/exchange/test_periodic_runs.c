@@ -60,7 +60,6 @@ static sb_sim *make_flume(tank *t, sb_preset preset, double width, double length
     tank_make(t, width > 0 ? 3 : 2, 0.05, sb_vec(length, width, 1.5), 1, 1, 0.02);
     tank_use(t, preset);
     if (width > 0) tank_repeat(t, 1);
-    t->scene.numerics.wall_gamma = 0.8;
     t->scene.numerics.settle_steps = 100;
     sb_sim *sim = tank_sim(t);
     assert_non_null(sim);

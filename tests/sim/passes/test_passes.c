@@ -115,7 +115,7 @@ enum { NEIGHBOURS, STRAIN, MEAN_STRAIN, CORRECT, STRAIN_RATE, FORCES, ACCELERATE
 static const double SUM = 3e-6, ROOTS = 1e-4;
 
 static const row rows[PASSES] = {
-    [NEIGHBOURS] = {"neighbours", {{"density", SUM}, {"wall_density", SUM}, {"wall", SUM}, {"diagonal", ROOTS}}},
+    [NEIGHBOURS] = {"neighbours", {{"density", SUM}, {"wall", SUM}, {"diagonal", ROOTS}}},
     [STRAIN] = {"strain", {{"strain_xx", SUM}, {"strain", SUM}}},
     [MEAN_STRAIN] = {"mean_strain", {{"stress_xx", SUM}, {"stress", SUM}}},
     [CORRECT] = {"correct", {{"corrected", SUM}}},

@@ -29,7 +29,6 @@ sb_status shore_try(shore *s, const shore_form *f, const char *sea, sb_error *er
                          {"domain.max", max},
                          {"domain.sides", f->sides},
                          {"water", water},
-                         {"numerics.walls", f->walls ? f->walls : "particles"},
                          {"bodies", f->bodies ? f->bodies : "[]"},
                          {"sea", sea ? sea : "{source: none}"}};
     *s = (shore){.model = {.dimensions = 0}};

@@ -11,7 +11,6 @@ typedef struct shore_form {
     sb_vec3 size;
     const char *sides;  /* as in a scene, "{x_min: sea}" */
     const char *bodies; /* as in a scene; NULL: none */
-    const char *walls;  /* "particles" or "images"; NULL: the default */
 } shore_form;
 
 typedef struct shore {

@@ -40,8 +40,7 @@ static void oblique_wave_leaves(void **state)
 {
     (void)state;
     const double height = 0.3, side = 6, end = 22;
-    const shore_form form = {3,    0.2, 1, {side, side, 1.8}, "{x_min: sea, x_max: sea, y_min: sea, y_max: sea}",
-                             NULL, NULL};
+    const shore_form form = {3, 0.2, 1, {side, side, 1.8}, "{x_min: sea, x_max: sea, y_min: sea, y_max: sea}", NULL};
     shore s;
     shore_make(
         &s, &form,

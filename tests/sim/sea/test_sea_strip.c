@@ -35,7 +35,7 @@ static double follow(sb_sim *sim, double x, double reach, double times)
 static void still_water_rests(void **state)
 {
     (void)state;
-    const shore_form form = {2, 0.1, 1, {6, 0, 1.5}, "{x_min: sea, x_max: sea}", NULL, "images"};
+    const shore_form form = {2, 0.1, 1, {6, 0, 1.5}, "{x_min: sea, x_max: sea}", NULL};
     shore s;
     shore_make(&s, &form, still);
     sb_sim *sim = shore_sim(&s);
@@ -66,8 +66,7 @@ static void water_rests_over_a_slope_with_a_dry_part(void **state)
                              {2.5, 3, 1.5},
                              "{x_min: sea}",
                              "[{name: slope, shape: box, min: [-1, -3, -2], max: [4, 5, 0], rotate: [25, 0, 0], "
-                             "translate: [0, 1.5, 0.5]}]",
-                             NULL};
+                             "translate: [0, 1.5, 0.5]}]"};
     shore s;
     shore_make(&s, &form, still);
     const sb_model_sea *ground = &s.model.sea[SB_X_MIN];
@@ -122,7 +121,7 @@ static void assert_ids_differ(const sb_sim *sim)
 static void a_solitary_wave_passes(void **state)
 {
     (void)state;
-    const shore_form form = {2, 0.1, 1, {12, 0, 1.8}, "{x_min: sea, x_max: sea}", NULL, "images"};
+    const shore_form form = {2, 0.1, 1, {12, 0, 1.8}, "{x_min: sea, x_max: sea}", NULL};
     shore s;
     shore_make(&s, &form, "{" SOLITARY ", height: 0.3}"); /* its crest passes x = 0 at 10.8 sqrt(d/g) */
     sb_sim *sim = shore_sim(&s);
@@ -154,7 +153,7 @@ static void a_solitary_wave_passes(void **state)
 static void a_wave_passes_corners(void **state)
 {
     (void)state;
-    const shore_form form = {3, 0.2, 1, {5, 5, 1.8}, "{x_min: sea, x_max: sea, y_min: sea, y_max: sea}", NULL, NULL};
+    const shore_form form = {3, 0.2, 1, {5, 5, 1.8}, "{x_min: sea, x_max: sea, y_min: sea, y_max: sea}", NULL};
     shore s;
     shore_make(&s, &form, "{" SOLITARY ", height: 0.2, origin: [6, 0]}");
     sb_sim *sim = shore_sim(&s);
@@ -213,9 +212,9 @@ static void threads_and_resuming_do_not_matter(void **state)
     (void)state;
     static const char *const flat_wave = "{" SOLITARY ", height: 0.3, origin: [8]}";
     static const char *const wave = "{" SOLITARY ", height: 0.3, origin: [8, 0]}";
-    const shore_form flat = {2, 0.1, 1, {4, 0, 1.8}, "{x_min: sea, x_max: sea}", NULL, "images"};
-    const shore_form corner = {3, 0.2, 1, {3.2, 3.2, 1.8}, "{x_min: sea, y_max: sea}", NULL, NULL};
-    const shore_form slab = {3, 0.2, 1, {4, 1, 1.8}, "{x_min: sea, y_min: periodic, y_max: periodic}", NULL, NULL};
+    const shore_form flat = {2, 0.1, 1, {4, 0, 1.8}, "{x_min: sea, x_max: sea}", NULL};
+    const shore_form corner = {3, 0.2, 1, {3.2, 3.2, 1.8}, "{x_min: sea, y_max: sea}", NULL};
+    const shore_form slab = {3, 0.2, 1, {4, 1, 1.8}, "{x_min: sea, y_min: periodic, y_max: periodic}", NULL};
     the_same_bits(&flat, flat_wave);
     the_same_bits(&corner, wave);
     the_same_bits(&slab, wave);
@@ -234,7 +233,7 @@ static void bad_input_is_refused(void **state)
 {
     (void)state;
     static const char *const high = "{" SOLITARY ", height: 0.8}";
-    shore_form f = {2, 0.1, 1, {6, 0, 1.5}, "{x_min: sea, x_max: periodic}", NULL, NULL};
+    shore_form f = {2, 0.1, 1, {6, 0, 1.5}, "{x_min: sea, x_max: periodic}", NULL};
     assert_refused(&f, still, "periodic, but x_min is sea");
     f.sides = "{z_min: sea}";
     assert_refused(&f, still, "vertical sides only");
@@ -251,7 +250,7 @@ static void bad_input_is_refused(void **state)
 static void a_source_that_dries_the_strip_ends_the_run(void **state)
 {
     (void)state;
-    const shore_form form = {2, 0.1, 1, {6, 0, 2.2}, "{x_min: sea}", NULL, NULL};
+    const shore_form form = {2, 0.1, 1, {6, 0, 2.2}, "{x_min: sea}", NULL};
     shore s;
     shore_make(&s, &form,
                "{source: theory, wave: components, depth: 1, ramp: 0.5, components: [{amplitude: 0.98, period: 3}]}");

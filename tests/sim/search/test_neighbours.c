@@ -177,7 +177,7 @@ static void check_volumes(const setup *s)
 {
     const twin *t = &s->twin;
     double gamma = twin_gamma(s->sim), worst = 0;
-    const bool curved = s->sim->scene->numerics.wall_gamma == 0;
+    const bool curved = s->sim->needs.images;
     size_t all = t->reference.cloud.wall_count;
     double *psi = sb_alloc(all, sizeof *psi);
     assert_non_null(psi);
@@ -264,7 +264,7 @@ static size_t check_against_model(const setup *s)
     all.wall_count = m->wall_count;
     all.wall_position = m->wall_position;
     all.wall_normal = m->wall_normal;
-    sb_reference_psi(&all, twin_gamma(s->sim), s->tank.scene.numerics.wall_gamma == 0, psi);
+    sb_reference_psi(&all, twin_gamma(s->sim), s->sim->needs.images, psi);
     size_t pairs = 0, beside = 0;
     for (size_t b = 0; b < m->wall_count; b++) {
         sb_vec3 x = m->wall_position[b];

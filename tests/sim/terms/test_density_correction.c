@@ -12,13 +12,12 @@ static const double DEPTH = 0.6;
 static sb_sim *water_in(tank *t, int dimensions, sb_density_form form, double jitter)
 {
     const sb_vec3 size = dimensions == 2 ? sb_vec(1, 0, 1) : sb_vec(0.6, 0.5, 1);
-    tank_of_particles(t, dimensions, 0.05, size, size.x, DEPTH, jitter);
+    tank_make(t, dimensions, 0.05, size, size.x, DEPTH, jitter);
     t->scene.numerics.kernel = sb_kernel_find("wendland-c2");
     t->scene.numerics.support = 3;
     t->scene.numerics.density = form;
     t->scene.numerics.source_relaxation = 0.2;
     t->scene.numerics.warm_start = 0.7;
-    t->scene.numerics.wall_gamma = 1.3;
     sb_sim *sim = tank_sim(t);
     assert_non_null(sim);
     return sim;
@@ -100,11 +99,11 @@ static void it_returns_to_the_bulk_value(void **state)
 }
 
 /* Change of the mean height of the water by settling, in spacings. */
-static double rise_by_settling(sb_density_form form)
+static double rise_by_settling(void)
 {
     tank t;
     sb_error error = {0};
-    sb_sim_destroy(water_in(&t, 2, form, 0.02));
+    sb_sim_destroy(water_in(&t, 2, SB_DENSITY_COMPLETED, 0.02));
     t.scene.numerics.settle_steps = 300;
     sb_sim *sim = tank_sim(&t);
     assert_non_null(sim);
@@ -120,9 +119,9 @@ static double rise_by_settling(sb_density_form form)
 static void settling_keeps_the_level(void **state)
 {
     (void)state;
-    const double completed = rise_by_settling(SB_DENSITY_COMPLETED), summed = rise_by_settling(SB_DENSITY_SUMMED);
-    assert_true(fabs(completed) < 0.1); /* spacings */
-    assert_true(fabs(summed) > 5 * fabs(completed));
+    const double rise = rise_by_settling();
+    print_message("by settling the level rises by %.3f spacings\n", rise);
+    assert_true(fabs(rise) < 0.1);
 }
 
 static void it_costs_nothing_when_off(void **state)

@@ -43,10 +43,11 @@ static void strain(const twin *copy, size_t i, tensor s)
                 m[row][column] -= r->mass * a[row] * b[column] / r->cloud.rest_density;
     }
     const double mean = (m[0][0] + m[1][1] + m[2][2]) / d;
-    if (mean < 0.9 || r->wall_start[i] < r->wall_start[i + 1]) return;
+    const double part = fmin((mean - 0.85) / 0.1, 1);
+    if (part <= 0) return;
     for (int row = 0; row < 3; row++)
         for (int column = 0; column < 3; column++)
-            s[row][column] = 0.75 * ((row == column && (d == 3 || row != 1)) - m[row][column] / mean);
+            s[row][column] = 0.75 * part * ((row == column && (d == 3 || row != 1)) - m[row][column] / mean);
 }
 
 /* Weight of a cell `off` cells away from that of a place, which is at u from 0 to 1 in its own cell: the quadratic

@@ -91,7 +91,6 @@ static void water_at_rest_has_hydrostatic_pressure(void **state)
     t.scene.numerics.support = 2.75;
     t.scene.numerics.density = SB_DENSITY_COMPLETED;
     t.scene.numerics.settle_steps = 300;
-    t.scene.numerics.wall_gamma = 0;
     sb_sim *sim = tank_settled(&t);
     double before[2] = {0}, virial_sums[2] = {0};
     enum { STEPS = 200 };

@@ -146,7 +146,7 @@ static void a_bed_of_too_fine_facets_is_refused(void **state)
     assert_int_equal(sb_sim_step(b.sim, &error), SB_FAILED);
     printf("%s\n", error.text);
     assert_non_null(strstr(error.text, "too many facets of walls"));
-    assert_non_null(strstr(error.text, "numerics.walls: particles"));
+    assert_non_null(strstr(error.text, "numerics.preset: paper"));
     basin_free(&b);
 }
 

@@ -109,7 +109,6 @@ static void a_floor_slows_sliding_water(void **state)
         sb_numerics *n = &t.scene.numerics;
         n->kernel = sb_kernel_find("wendland-c2");
         n->support = 3;
-        n->wall_gamma = 0;
         n->wall_shear = SB_SHEAR_SMOOTH;
         n->artificial_viscosity = 0;
         t.scene.fluid.viscosity = nu;

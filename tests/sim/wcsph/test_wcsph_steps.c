@@ -158,7 +158,6 @@ static void make(tank *t, bool paddle)
     if (paddle) tank_repeat(t, 1);
     use_wen(t, SB_WALLS_DYNAMIC, SB_CORRECTION_CSPM);
     if (!paddle) return;
-    t->model.images = false;
     tank_add_plate(t, "paddle", -0.0625, 0, 1.25, sb_vec(1, 0, 0), &law);
 }
 

@@ -1,6 +1,5 @@
 /* The defaults whose change by 25 % is studied: no switches, bounds or seeds, and no key that the default solver does
    not read. */
-#include "physics/wall_volume.h"
 #include "sensitivity.h"
 
 #include <math.h>
@@ -26,7 +25,6 @@ const sb_sensitivity_key sb_sensitivity_keys[] = {
     NUMBER(stress_correction, 1),
     NUMBER(artificial_viscosity, 10),
     NUMBER(wall_friction, 10),
-    NUMBER(wall_gamma, 5),
     NUMBER(wall_spacing, 1.2),
     NUMBER(wall_offset, 2),
     NUMBER(jitter, 0.5),
@@ -34,7 +32,6 @@ const sb_sensitivity_key sb_sensitivity_keys[] = {
     {.key = NULL},
 };
 
-/* Value of the key. A wall_gamma of 0 stands for a computed value. */
 static double value_of(const sb_sensitivity_key *key, const sb_numerics *numerics)
 {
     const char *at = (const char *)numerics + key->offset;
@@ -45,8 +42,6 @@ static double value_of(const sb_sensitivity_key *key, const sb_numerics *numeric
         return count;
     }
     memcpy(&number, at, sizeof number);
-    if (key->offset == offsetof(sb_numerics, wall_gamma) && number == 0)
-        return sb_wall_gamma(numerics->kernel, 3, numerics->support, numerics->wall_offset, numerics->wall_spacing);
     return number;
 }
 

@@ -72,52 +72,20 @@ static void record_pairs(const sb_sim *sim, size_t i)
     }
 }
 
-static void add_push(const sb_sim *sim, size_t i, uint32_t wall, sb_vec3 push, forces *to)
-{
-    const sb_record record = sb_wall_set_of(sim, wall)->record[sb_wall_particle(wall)];
-    sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
-    if (sim->space.repeats) at = sb_add(at, sb_wall_to_original(&sim->space, record));
-    if (sim->pushes) sb_wall_push_record(sim, i, wall, push);
-    add(sim, to, sb_wall_body(sim, wall), at, push, (sb_vec3){0});
-}
-
 /* Resolves contact of particle i; the bodies receive the reactions. */
-SB_APART void contact(sb_sim *sim, size_t i, forces *to, double works[WORKS])
-{
-    const sb_f4 start = sb_ledger_start(sim, i);
-    sb_f4 velocity = sim->work.end_velocity[i];
-    sb_contact_push pushes[SB_CONTACT_PUSHES_MAX];
-    const size_t count = sb_contact_resolve(sim, i, &velocity, pushes);
-    const double scale = -(double)sim->constant.mass / sim->state.time_step;
-    if (count == 0) return;
-    for (size_t k = 0; k < count; k++) {
-        const uint32_t wall = pushes[k].wall;
-        /* The push is along the wall's normal through the particle, so that it may act at the particle. */
-        const sb_vec3 push = vector(pushes[k].change, scale);
-        const sb_f4 body = sb_wall_velocity(sim, wall);
-        add_push(sim, i, wall, push, to);
-        works[2] += sb_ledger_work((sb_f4){0}, pushes[k].change, body, body);
-    }
-    works[1] += sb_ledger_work(sim->work.end_velocity[i], velocity, start, velocity);
-    velocity[3] = sim->work.end_velocity[i][3];
-    sim->work.end_velocity[i] = velocity;
-}
-
-/* The same at facets. */
-SB_APART void contact_facets(sb_sim *sim, const sb_group *group, size_t i, forces *to, double works[WORKS])
+SB_APART void contact(sb_sim *sim, const sb_group *group, size_t i, forces *to, double works[WORKS])
 {
     const sb_f4 start = sb_ledger_start(sim, i);
     const float to_quanta = (float)(sim->state.time_step / sim->space.quantum);
     const double scale = -(double)sim->constant.mass / sim->state.time_step;
+    const sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
     sb_f4 velocity = sim->work.end_velocity[i];
     sb_facet_contact c;
     int count = 0;
-    for (; count < SB_CONTACT_PUSHES_MAX && sb_mirrors_contact(sim, group, i, velocity, &c); count++) {
-        const sb_group_plane *p = &sim->groups.plane[group->plane + c.plane];
-        const sb_f4 change = p->plane * (sb_f4){1, 1, 1, 0} * sb_splat(c.push / to_quanta);
-        const sb_f4 body = sb_mirror_velocity(sim, p->mirror);
-        sb_body_forces_along(sim, &to->on, p, sb_space_position(&sim->space, sim->state.position[i]),
-                             vector(change, scale));
+    for (; count < SB_CONTACT_PUSHES_MAX && sb_contact_find(sim, group, i, velocity, &c); count++) {
+        const sb_f4 change = c.normal * sb_splat(c.push / to_quanta);
+        const sb_f4 body = sb_mirror_velocity(sim, c.mirror);
+        sb_body_forces_of_facet(sim, &to->on, c.mirror, at, vector(change, scale), vector(c.normal, 1));
         works[2] += sb_ledger_work((sb_f4){0}, change, body, body);
         velocity += change;
     }
@@ -187,14 +155,14 @@ static void do_group(sb_sim *sim, const sb_group *group, const sb_wall_drag *law
     for (size_t i = group->first; i < group->end; i++) {
         const bool reflects = sim->needs.images && (sim->work.pairs.count[i] > sim->work.pairs.direct[i] ||
                                                     sim->work.edge_pairs.count[i] > 0);
-        if (sim->work.wall_pairs.count[i] == 0 && !reflects && group->planes == 0) continue;
+        const bool meets = sb_contact_possible(sim, group, i);
+        if (sim->work.wall_pairs.count[i] == 0 && !reflects && !meets) continue;
         beside_wall = true;
         if (reflects) sb_react_images(sim, group, records, pulls, i, &reactions, &to->on);
-        if (group->planes > 0) contact_facets(sim, group, i, to, works);
+        if (meets) contact(sim, group, i, to, works);
         if (sim->work.wall_pairs.count[i] == 0) continue;
         const sb_f4 drag = react(sim, i, law->on ? law : NULL, to);
         if (recorded) record_pairs(sim, i);
-        if (!sim->needs.images) contact(sim, i, to, works);
         if (law->on) works[0] += sb_ledger_work((sb_f4){0}, drag, sb_ledger_start(sim, i), sim->work.end_velocity[i]);
     }
     if (!beside_wall) return;

@@ -230,7 +230,7 @@ static sb_status refuse(const sb_sim *sim, unsigned full, sb_error *error)
         return sb_fail(error, SB_FAILED,
                        "step %llu: too many facets of walls within %g m of one particle: expected fewer than %d facets "
                        "and %d images of particles; smoother meshes, wider gaps between bodies, or "
-                       "numerics.walls: particles",
+                       "numerics.preset: paper",
                        step, (double)sim->constant.support, SB_NEAR_MAX, SB_AROUND_MAX);
     return sb_fail(error, SB_FAILED, "step %llu: more than %d particles around %s: %s", step,
                    full & SB_FULL_LIST ? SB_LIST_MAX : SB_AROUND_MAX,

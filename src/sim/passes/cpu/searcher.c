@@ -163,7 +163,6 @@ SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists,
         wall[3] = by_images.flux;
         squares = by_images.squares;
     }
-    const float fluid_density = density;
     /* It shows the surface. The repulsion from a wall is no surface: a film on a floor would count as full water. */
     const sb_f4 slope = sum - by_images.repulsion;
     if (sim->work.water_squared) sim->work.water_squared[i] = sb_sum3(slope * slope);
@@ -172,7 +171,6 @@ SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists,
     const sb_f4 all = sum + doubled + wall;
     for (int axis = 0; axis < 3; axis++) diagonal += all[axis] * all[axis];
     sim->work.density[i] = density;
-    if (sim->work.wall_density) sim->work.wall_density[i] = density - fluid_density;
     sim->work.wall[i] = wall;
     sim->work.diagonal[i] = diagonal > 1e-6f * c->full_diagonal ? diagonal : 0;
 }

@@ -49,11 +49,10 @@ SB_INLINE sb_stress_sums sum_slopes(const sb_sim *sim, const sb_group *group, co
     return (sb_stress_sums){sum[0], sum[1], sum[2], trace, sum[3]};
 }
 
-/* The c of particle i, with images. */
-SB_INLINE float share_by_images(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i, float whole,
-                                float t)
+/* The c of particle i. */
+SB_INLINE float share_of(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i, float whole, float t)
 {
-    const float share = sb_stress_share(sim, whole, t);
+    const float share = sb_stress_share(whole, t);
     const size_t direct = sb_direct(&sim->work.pairs, i), count = sim->work.pairs.count[i];
     if (share >= whole || direct == count) return share;
     const sb_stress_sums images = sum_slopes(sim, group, around, i, direct, count);
@@ -78,12 +77,10 @@ static void find_strain(sb_sim *sim, const sb_group *group, const void *argument
     for (size_t i = group->first; i < group->end; i++) {
         sim->work.strain_xx[i] = 0;
         sim->work.strain[i] = (sb_f4){0};
-        if (!sim->needs.images && sim->work.wall_pairs.count[i] > 0) continue;
         const moments m = gather(sim, group, around, i);
         const float mean = part * (m.xx + m.yy + m.zz);
         const float t = unit * mean;
-        const float share =
-            sim->needs.images ? share_by_images(sim, group, around, i, whole, t) : sb_stress_share(sim, whole, t);
+        const float share = share_of(sim, group, around, i, whole, t);
         const float off = -share / mean;
         if (!(share > 0)) continue;
         sim->work.strain_xx[i] = share + off * m.xx;
@@ -162,15 +159,6 @@ SB_INLINE void correct_with(sb_sim *sim, const sb_group *group, const sb_f4 *aro
     }
 }
 
-SB_MULTIVERSION
-static void correct(sb_sim *sim, const sb_group *group, const void *arguments)
-{
-    (void)arguments;
-    _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
-    const bool any = sb_around_tensors(sim, group, sim->work.stress, around);
-    correct_with(sim, group, around, any);
-}
-
 void sb_cpu_strain(sb_sim *sim)
 {
     sb_each_group(sim, find_strain, NULL);
@@ -246,10 +234,6 @@ static bool correct_all_reflected(sb_sim *sim, sb_body_forces *total)
 
 int sb_cpu_correct(sb_sim *sim)
 {
-    if (!sim->needs.images) {
-        sb_each_group(sim, correct, NULL);
-        return 0;
-    }
     const size_t values = sim->model->body_count * SB_FORCE_VALUES;
     sb_body_forces all;
     int status = sb_body_forces_create(&all, sim->model->body_count);

@@ -32,12 +32,16 @@ static void act(const sb_sim *sim, size_t i, uint32_t entry, sb_vec3 pressure, s
 
 /* ---- images ---- */
 
-/* The force `along` times m along a plane's normal. */
+/* The force `along` times m along a facet's normal. */
+static void push_facet(const sb_sim *sim, uint32_t mirror, sb_f4 normal, sb_vec3 at, double along, double *force)
+{
+    const sb_vec3 push = sb_scale(sb_vector_of(normal), (double)sim->constant.mass * along);
+    act_on(sim, sb_mirror_body(sim, mirror), sb_add(at, sb_mirror_shift(sim, mirror)), push, (sb_vec3){0}, force);
+}
+
 static void push_plane(const sb_sim *sim, const sb_group_plane *plane, sb_vec3 at, double along, double *force)
 {
-    const sb_vec3 push = sb_scale(sb_vector_of(plane->plane), (double)sim->constant.mass * along);
-    act_on(sim, sb_mirror_body(sim, plane->mirror), sb_add(at, sb_mirror_shift(sim, plane->mirror)), push, (sb_vec3){0},
-           force);
+    push_facet(sim, plane->mirror, plane->plane, at, along, force);
 }
 
 void sb_plain_reflect(const sb_sim *sim, const sb_indices *indices, uint32_t path, sb_vec3 at, sb_vec3 a, double *force)
@@ -94,19 +98,18 @@ static void react_images(const sb_sim *sim, const sb_indices *around, size_t i, 
 }
 
 /* Contact with facets. */
-static void contact_facets(sb_sim *sim, const sb_group *group, size_t i, sb_body_sums *total)
+static void contact(sb_sim *sim, const sb_group *group, size_t i, sb_body_sums *total)
 {
     const sb_f4 start = sb_ledger_start(sim, i), before = sim->work.end_velocity[i];
     const double dt = sim->state.time_step;
     const sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
     sb_f4 velocity = before;
     sb_facet_contact c;
-    for (int k = 0; k < SB_CONTACT_PUSHES_MAX && sb_mirrors_contact(sim, group, i, velocity, &c); k++) {
-        const sb_group_plane *p = &sim->groups.plane[group->plane + c.plane];
+    for (int k = 0; k < SB_CONTACT_PUSHES_MAX && sb_contact_find(sim, group, i, velocity, &c); k++) {
         const double along = (double)c.push * sim->space.quantum / dt;
-        const sb_vec3 change = sb_scale(sb_vector_of(p->plane), along);
-        push_plane(sim, p, at, -along / dt, total->force);
-        total->contact_bodies += sb_dot(change, sb_vector_of(sb_mirror_velocity(sim, p->mirror)));
+        const sb_vec3 change = sb_scale(sb_vector_of(c.normal), along);
+        push_facet(sim, c.mirror, c.normal, at, -along / dt, total->force);
+        total->contact_bodies += sb_dot(change, sb_vector_of(sb_mirror_velocity(sim, c.mirror)));
         velocity += (sb_f4){(float)change.x, (float)change.y, (float)change.z, 0};
     }
     total->contact += sb_ledger_work(before, velocity, start, velocity);
@@ -131,24 +134,6 @@ static void react(sb_sim *sim, size_t i, const sb_wall_drag *law, sb_body_sums *
     if (law->on) total->friction += 0.5 * sb_dot(drag, both);
 }
 
-static void contact(sb_sim *sim, size_t i, sb_body_sums *total)
-{
-    const sb_f4 start = sb_ledger_start(sim, i), before = sim->work.end_velocity[i];
-    sb_contact_push pushes[SB_CONTACT_PUSHES_MAX];
-    sb_f4 velocity = before;
-    const size_t count = sb_contact_resolve(sim, i, &velocity, pushes);
-    const double scale = -(double)sim->constant.mass / sim->state.time_step;
-    if (count == 0) return;
-    for (size_t k = 0; k < count; k++) {
-        const sb_vec3 change = sb_vector_of(pushes[k].change);
-        act(sim, i, pushes[k].wall, sb_scale(change, scale), (sb_vec3){0}, total->force);
-        total->contact_bodies += sb_dot(change, sb_vector_of(sb_wall_velocity(sim, pushes[k].wall)));
-    }
-    total->contact += sb_ledger_work(before, velocity, start, velocity);
-    velocity[3] = before[3];
-    sim->work.end_velocity[i] = velocity;
-}
-
 int sb_plain_bodies(sb_sim *sim, const sb_wall_drag *law, sb_body_sums *total)
 {
     memset(total->force, 0, sim->model->body_count * SB_FORCE_VALUES * sizeof *total->force);
@@ -158,11 +143,8 @@ int sb_plain_bodies(sb_sim *sim, const sb_wall_drag *law, sb_body_sums *total)
         sb_indices around;
         sb_indices_of(sim, group, &around);
         for (size_t i = group->first; i < group->end; i++) {
-            if (sim->needs.images) {
-                react_images(sim, &around, i, total->force);
-                contact_facets(sim, group, i, total);
-            } else
-                contact(sim, i, total);
+            if (sim->needs.images) react_images(sim, &around, i, total->force);
+            if (sb_contact_possible(sim, group, i)) contact(sim, group, i, total);
             react(sim, i, law, total);
         }
     }

@@ -105,7 +105,6 @@ static void set_fields(sb_sim *sim, size_t i, const sums *s)
     sim->work.density[i] = (float)(s->density + s->wall_density);
     sim->work.wall[i] = (sb_f4){(float)s->wall.x, (float)s->wall.y, (float)s->wall.z, (float)s->flux};
     sim->work.diagonal[i] = diagonal > 1e-6 * (double)sim->constant.full_diagonal ? (float)diagonal : 0;
-    if (sim->work.wall_density) sim->work.wall_density[i] = (float)s->wall_density;
     if (sim->work.water_squared) sim->work.water_squared[i] = (float)sb_dot(s->water, s->water);
 }
 

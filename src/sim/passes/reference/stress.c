@@ -12,8 +12,7 @@ enum { XX, YY, XY, XZ, YZ, PARTS };
 /* The c of particle i. */
 static float share_of(const sb_sim *sim, const sb_indices *around, size_t i, float whole, float t)
 {
-    const float share = sb_stress_share(sim, whole, t);
-    if (!sim->needs.images) return share;
+    const float share = sb_stress_share(whole, t);
     double all[5] = {0}, images[5] = {0};
     for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
         const sb_one_pair p = sb_pair_at(sim, around, i, k);
@@ -48,7 +47,7 @@ static void strain_group(sb_sim *sim, const sb_group *group, const void *argumen
         }
         const double mean = (xx + yy + zz) / d, share = (double)share_of(sim, &around, i, (float)whole, (float)mean);
         const double off = -share / mean;
-        const bool corrected = (sim->needs.images || sim->work.wall_pairs.count[i] == 0) && share > 0;
+        const bool corrected = share > 0;
         sim->work.strain_xx[i] = corrected ? (float)(share + off * xx) : 0;
         sim->work.strain[i] = corrected ? (sb_f4){d == 2 ? 0 : (float)(share + off * yy), (float)(off * xy),
                                                   (float)(off * xz), (float)(off * yz)}
@@ -167,6 +166,6 @@ int sb_plain_correct(sb_sim *sim)
 {
     sb_each_group(sim, correct_group, NULL);
     memset(sim->work.stress_force, 0, sim->model->body_count * SB_FORCE_VALUES * sizeof *sim->work.stress_force);
-    for (size_t g = 0; g < sim->groups.count && sim->needs.images; g++) push_walls(sim, &sim->groups.group[g]);
+    for (size_t g = 0; g < sim->groups.count; g++) push_walls(sim, &sim->groups.group[g]);
     return 0;
 }
