@@ -26,7 +26,7 @@ static const struct {
 } scenes[] = {
     {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0x620ebd044111b189,
      0x52690d3339122ee0},
-    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0x42f2775b3eacc8cd, 0xbf5acf9258a7d614},
+    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0xd599c6883d7659e7, 0x747e296ccc06789f},
 };
 
 static const char settle[] = "numerics.settle_steps=20";

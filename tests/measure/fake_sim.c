@@ -27,6 +27,12 @@ const sb_offshore *sb_sim_grid(const sb_sim *sim)
     return NULL;
 }
 
+sb_absorption sb_sim_absorption(const sb_sim *sim, size_t body)
+{
+    (void)sim, (void)body;
+    return (sb_absorption){0};
+}
+
 sb_energy sb_sim_energy(const sb_sim *sim)
 {
     return sim->energy;

@@ -244,11 +244,8 @@ static void add_facet(tank *t, uint32_t body, double x, double way, double z_min
     sb_facets *all = &m->facets;
     need(sb_grow((void **)&all->facets, &t->facet_capacity, all->count + 1, sizeof *all->facets) == 0);
     need(sb_grow((void **)&all->edges, &t->edge_capacity, all->edge_count + 2, sizeof *all->edges) == 0);
-    all->facets[all->count++] = (sb_facet){.normal = sb_vec(way, 0, 0),
-                                           .distance = way * x,
-                                           .body = body,
-                                           .edge = (uint32_t)all->edge_count,
-                                           .edges = 2};
+    all->facets[all->count++] = (sb_facet){
+        .normal = sb_vec(way, 0, 0), .distance = way * x, .body = body, .edge = (uint32_t)all->edge_count, .edges = 2};
     const double y[2] = {t->scene.dimensions == 2 ? 0 : m->min.y, t->scene.dimensions == 2 ? 0 : m->max.y};
     for (int end = 0; end < 2; end++)
         all->edges[all->edge_count++] = (sb_facet_edge){.from = sb_vec(x, y[0], end ? z_max : z_min),
@@ -277,8 +274,7 @@ size_t tank_add_plate(tank *t, const char *name, double x, double z_min, double 
                 sb_vec(1, 0, 0));
     body->count = m->wall_count - body->begin;
     const double offset = s->numerics.wall_offset * s->resolution;
-    for (int way = -1; way <= 1; way += 2)
-        add_facet(t, (uint32_t)m->body_count, x + way * offset, way, z_min, z_max);
+    for (int way = -1; way <= 1; way += 2) add_facet(t, (uint32_t)m->body_count, x + way * offset, way, z_min, z_max);
     if (law) {
         body->wavemaker = (int)s->wavemaker_count;
         sb_wavemaker_use *use = &s->wavemakers[s->wavemaker_count++];

@@ -6,9 +6,6 @@
 
 #include <math.h>
 
-/* Half-width in spacings of the column along the paddle's direction. */
-static const double HALF = SB_ABSORB_DISTANCE;
-
 void sb_plate_find(const sb_sim *sim, size_t body, sb_vec3 direction, sb_absorber *a)
 {
     const sb_model_body *of = &sim->model->bodies[body];
