@@ -46,6 +46,7 @@ static sb_status lay_faces(sb_sides *sides, struct cut *cut, sb_error *error)
         first[f] = total;
         if (face->seen) total += 2 * d->n[along] * d->n[2];
     }
+    if (total == 0) return SB_OK;
     if (sb_grow((void **)&sides->node, &sides->capacity, total, sizeof *sides->node) != 0)
         return sb_fail_memory(error, "the water at the sides of a picture");
     memset(sides->node, 0, total * sizeof *sides->node);

@@ -85,8 +85,8 @@ static const sb_key keys[] = {
     NUMBER(wall_friction, NULL, 0, 10, 0,
            "Coefficient sigma of the artificial wall friction; 0 leaves the term out."),
     CHOICE(walls, wall_names,
-           "What the pressure meets at walls. `particles`: boundary particles [A12]. `images`: images of the "
-           "water, reflected at the walls' facets; surfaces have no detail finer than 0.1 spacings then. `dynamic`, for "
+           "What the pressure meets at walls; their surfaces have no detail finer than 0.1 spacings. `particles`: boundary "
+           "particles [A12]. `images`: images of the water, reflected at the walls' facets. `dynamic`, for "
            "`solver: wcsph`: two staggered layers of boundary particles with a density of their own."),
     NUMBER(wall_beta, NULL, 0, 1, 0,
            "With `walls: dynamic`: share of the pressure of the water nearby in that of a boundary particle; the rest "

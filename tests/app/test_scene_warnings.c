@@ -49,8 +49,9 @@ static void check_and_run_give_the_same_warnings(void **state)
          "fluid.surface_tension: 0.0728 N/m acts below 0.00272 m", "expected a resolution below 0.00136 m"},
         {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\nfoam: {enabled: true}\n",
          "foam.enabled: true, but the run draws no pictures", "expected render.interval or output.particle_interval"},
-        {TANK
-         "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\noutput: {particle_pieces: true}\n",
+        {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\nmeasure: {interval: 0.01}\n"
+         "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
+         "output: {plots: false, particle_pieces: true}\n",
          "output.particle_pieces: true, but the run writes no particle files",
          "expected output.particle_interval above"},
     };

@@ -66,7 +66,7 @@ static double flow_depth(const char *walls, int layers, double *splash)
 static void flow_depth_is_that_of_the_bore(void **state)
 {
     (void)state;
-    static const char *const walls[] = {"particles", "images"};
+    static const char *const walls[] = {"particles, density: summed, stress_correction: 0", "images"};
     for (int w = 0; w < 2; w++)
         for (int layers = 2; layers <= 4; layers += 2) {
             double splash;

@@ -208,7 +208,7 @@ static bool keep_around_folds(const source *from, const sb_mesh *simple, double 
 }
 
 /* One attempt, with a bound on the mean error in m and options of the library. *near: whether the result is within the
-   tolerance and has no folds. */
+   tolerance and has no folds but those of the mesh itself; with an empty result, whether there is nothing to leave out. */
 static sb_status attempt(const source *from, double bound, unsigned options, double tolerance, room *r, sb_mesh *simple,
                          bool *near, sb_error *error)
 {
@@ -221,8 +221,9 @@ static sb_status attempt(const source *from, double bound, unsigned options, dou
         sb_mesh_free(simple);
         *simple = (sb_mesh){0};
         const size_t left = collapse(from, bound, options, r);
-        *near = left == 3 * mesh->triangle_count;
-        if (*near || left == 0) return SB_OK;
+        const bool whole = left == 3 * mesh->triangle_count;
+        *near = whole && round == 0;
+        if (whole || left == 0) return SB_OK;
         status = take(mesh, r->corner, left, simple, r->origin, error);
         if (status == SB_OK) status = remove_slivers(from, tolerance, simple, error);
         folds = status == SB_OK && keep_around_folds(from, simple, tolerance, r);
