@@ -171,7 +171,8 @@ static sb_absorption *find_absorptions(run *r)
         if (!all) return NULL;
         all[b] = one;
         sb_runlog_event(r->log, "absorber",
-                        "%s: %.4g m from its law at the end, at most %.4g m; mean of the last ten periods %.3g m; %llu "
+                        "%s: %.4g m from its law at the end, at most %.4g m; mean of the last whole ten periods, or of "
+                        "the run so far, %.3g m; %llu "
                         "steps at its reach",
                         r->model.bodies[b].name, one.offset, one.farthest, one.drift, (unsigned long long)one.limited);
         if (one.limited > 0)

@@ -1,6 +1,5 @@
-/* Files into which all ranks write, by MPI-IO: it knows what the file system of a cluster needs so that writes of
-   several hosts to one file do not harm each other. Each rank opens the file on its own, so that no rank waits for
-   another one within MPI, where its deadline would not count. */
+/* Files into which all ranks of one host write, by MPI-IO. Each rank opens the file on its own, so that no rank waits
+   for another one within MPI, where its deadline would not count. */
 #include "base/memory.h"
 #include "mpi/parts.h"
 
@@ -29,8 +28,10 @@ static int reason_of(int code)
 
 int sb_world_open(sb_ranks *ranks, const char *path, void **file)
 {
+    /* Rank 0 writes the edges of ranges by the system's calls, into pages that other hosts may hold as well: not tried
+       on a file system that hosts share. */
+    if (sb_world_hosts(ranks) > 1) return ENOTSUP;
     MPI_File *opened = sb_alloc(1, sizeof *opened);
-    (void)ranks;
     if (!opened) return ENOMEM;
     const int reason = reason_of(MPI_File_open(MPI_COMM_SELF, path, MPI_MODE_WRONLY, MPI_INFO_NULL, opened));
     if (reason == 0)

@@ -85,7 +85,7 @@ static void put_absorptions(sb_json *json, const sb_summary *s)
         sb_json_number(json, "offset_m", a->offset);
         sb_json_number(json, "farthest_m", a->farthest);
         sb_json_number(json, "drift_m", a->drift);
-        sb_json_number(json, "largest_drift_m", a->drift_most);
+        sb_json_number(json, "largest_drift_m", fmax(a->drift_most, fabs(a->drift)));
         sb_json_count(json, "limited_steps", a->limited);
         if (a->plates > 0) {
             sb_json_count(json, "plates", a->plates);

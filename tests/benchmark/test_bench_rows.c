@@ -259,7 +259,7 @@ static void test_options_select_sections(void **state)
     sb_bench_options o;
     sb_error error = {0};
     assert_int_equal(parse("", &o, &error), SB_OK);
-    assert_int_equal(o.count, 4);
+    assert_int_equal(o.count, 5);
     assert_int_equal(parse("scaling kernels scaling --repeats 3 --quick --out x", &o, &error), SB_OK);
     assert_int_equal(o.count, 2);
     assert_string_equal(o.sections[0]->name, "scaling");

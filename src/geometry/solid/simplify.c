@@ -208,7 +208,8 @@ static bool keep_around_folds(const source *from, const sb_mesh *simple, double 
 }
 
 /* One attempt, with a bound on the mean error in m and options of the library. *near: whether the result is within the
-   tolerance and has no folds but those of the mesh itself; with an empty result, whether there is nothing to leave out. */
+   tolerance and has no folds but those of the mesh itself; with an empty result, whether there is nothing to leave out.
+ */
 static sb_status attempt(const source *from, double bound, unsigned options, double tolerance, room *r, sb_mesh *simple,
                          bool *near, sb_error *error)
 {

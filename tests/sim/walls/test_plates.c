@@ -85,7 +85,7 @@ static void plates_take_waves_across(void **state)
         for (int plates = 0; plates <= 1; plates++) {
             basin b;
             double imbalance = 0;
-            make(&b, "", plates_of[plates], particles ? "particles" : "images");
+            make(&b, "", plates_of[plates], particles ? "particles, density: summed, stress_correction: 0" : "images");
             const double first = slosh_until(&b, 0, 1.5, &imbalance);
             last[plates] = slosh_until(&b, 5, 6.6, &imbalance);
             const sb_absorption one = sb_sim_absorption(b.sim, 0);
