@@ -76,8 +76,13 @@ static sb_status set_scene(sb_scene *scene, const sb_live_scene *live, sb_error 
     scene->domain.min = vector(live->domain_min);
     scene->domain.max = vector(live->domain_max);
     scene->sea = (sb_sea){.present = live->has_level, .level = live->level};
-    scene->render =
-        (sb_render_settings){.width = live->width, .height = live->height, .speed_max = live->speed_max, .video = true};
+    /* Shadows and occlusion are those of a scene that does not name them: a log does not say. */
+    scene->render = (sb_render_settings){.width = live->width,
+                                         .height = live->height,
+                                         .speed_max = live->speed_max,
+                                         .shadows = true,
+                                         .occlusion = true,
+                                         .video = true};
     scene->render.video_rate = (int)fmin(fmax(round(1 / fmax(live->frame_interval, 1 / MOST)), 1), MOST);
     scene->boxes = sb_alloc(1, sizeof *scene->boxes); /* only its level matters */
     if (!scene->title || !scene->boxes) return sb_fail_memory(error, "the scene of a log");
