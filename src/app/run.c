@@ -75,14 +75,15 @@ static sb_status feed_pieces(run *r, sb_error *error)
     sb_consumer *consumer = &r->consumers[RECORDER];
     sb_frame *frame;
     sb_error reason = {0};
-    sb_consumer_drain(consumer); /* the recorder, and the number of its next file, are then at rest */
-    if (sb_recorder_clear_pieces(&r->recorder, &reason) == SB_OK)
+    sb_consumer_drain(consumer);            /* the recorder, and the number of its next file, are then at rest */
+    const bool rests = !consumer->given_up; /* else the thread may still use the recorder, and misses this frame */
+    if (rests && sb_recorder_clear_pieces(&r->recorder, &reason) == SB_OK)
         sb_cluster_write_pieces(r, sb_recorder_next(&r->recorder), &frame, &reason);
     else
         frame = sb_sim_snapshot_own(r->sim);
     frame = complete_frame(r, frame, error);
     if (!frame) return SB_FAILED;
-    r->recorder.failure = reason;
+    if (rests) r->recorder.failure = reason;
     sb_consumer_feed(consumer, frame);
     sb_frame_release(frame);
     return SB_OK;

@@ -113,7 +113,8 @@ static void run(sb_ranks *ranks, void *context)
     sb_model part = {.dimensions = 0};
     const bool divided = j->way->divided;
     if (divided && sb_model_build_part(&j->made->scene, NULL, ranks->rank, ranks->count, &part, &end->error) != SB_OK)
-        abort(); /* the others would wait */
+        abort();                                                    /* the others would wait */
+    if (divided && ranks->count > 1 && !part.part.divided) abort(); /* the case would show nothing */
     sb_status status = sb_sim_create(&j->made->scene, divided ? &part : &j->made->model, ranks, &sim, &end->error);
     sb_model_free_start(&part);
     if (status == SB_OK) status = begin(j, sim, &end->error);
