@@ -40,6 +40,19 @@ int pair_setup(void **state)
     return 0;
 }
 
+int pair_setup_whole(void **state)
+{
+    if (pair_setup(state) != 0) return -1;
+    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "whole", "--quiet", "--set", EVERY_THREE);
+    return 0;
+}
+
+void assert_one_reason(const char *text, const char *expected)
+{
+    assert_int_equal(count_of(text, "shorebreak: "), 1);
+    assert_contains(strstr(text, "shorebreak: "), expected);
+}
+
 const char *const pair_tables[] = {"forces.csv",
                                    "gauges.csv",
                                    "probes.csv",
@@ -69,6 +82,16 @@ void assert_same_file(const char *a, const char *b, const char *name)
     sb_free(text[1]);
 }
 
+void assert_same_frame(const sb_frame *one, const sb_frame *two)
+{
+    assert_int_equal(one->count, two->count);
+    assert_int_equal(one->index, two->index);
+    assert_memory_equal(one->position, two->position, 12 * one->count);
+    assert_memory_equal(one->velocity, two->velocity, 12 * one->count);
+    assert_memory_equal(one->pressure, two->pressure, 4 * one->count);
+    assert_memory_equal(one->id, two->id, 4 * one->count);
+}
+
 /* Particle files contain the wall time; everything else is compared. */
 static void assert_same_particles(const char *a, const char *b)
 {
@@ -81,12 +104,7 @@ static void assert_same_particles(const char *a, const char *b)
         if (sb_vtp_read(in_folder("%s/%s", a, list.entries[i].file), &one, &error) != SB_OK ||
             sb_vtp_read(in_folder("%s/%s", b, list.entries[i].file), &two, &error) != SB_OK)
             fail_msg("%s", error.text);
-        assert_int_equal(one->count, two->count);
-        assert_int_equal(one->index, two->index);
-        assert_memory_equal(one->position, two->position, 12 * one->count);
-        assert_memory_equal(one->velocity, two->velocity, 12 * one->count);
-        assert_memory_equal(one->pressure, two->pressure, 4 * one->count);
-        assert_memory_equal(one->id, two->id, 4 * one->count);
+        assert_same_frame(one, two);
         sb_frame_release(one);
         sb_frame_release(two);
     }

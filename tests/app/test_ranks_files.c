@@ -13,29 +13,6 @@
 
 #define PIECES "output.particle_pieces=true"
 
-static int setup(void **state)
-{
-    if (pair_setup(state) != 0) return -1;
-    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "whole", "--quiet", "--set", EVERY_THREE);
-    return 0;
-}
-
-#define NEEDS_MPI()                                                                                                    \
-    do {                                                                                                               \
-        if (!program_has_mpi()) {                                                                                      \
-            print_message("this build has no MPI, or there is no mpirun\n");                                           \
-            skip();                                                                                                    \
-        }                                                                                                              \
-    } while (0)
-
-/* Runs it on so many ranks. */
-#define RUN_ON(count, status, ...)                                                                                     \
-    do {                                                                                                               \
-        program_on_ranks(count);                                                                                       \
-        RUN_AND_FORGET(status, "run", __VA_ARGS__);                                                                    \
-        program_on_ranks(NULL);                                                                                        \
-    } while (0)
-
 /* Fails unless the pieces of each time of `run`, one after another, are the particles of the file of the same number of
    the run "whole". The wall times differ. */
 static void assert_pieces_are_whole(const char *run)
@@ -52,12 +29,7 @@ static void assert_pieces_are_whole(const char *run)
         if (sb_vtp_read(in_folder("whole/%s", single.entries[i].file), &one, &error) != SB_OK ||
             sb_pvtp_read(in_folder("%s/%s", run, list.entries[i].file), &two, &error) != SB_OK)
             fail_msg("%s", error.text);
-        assert_int_equal(one->count, two->count);
-        assert_int_equal(one->index, two->index);
-        assert_memory_equal(one->position, two->position, 12 * one->count);
-        assert_memory_equal(one->velocity, two->velocity, 12 * one->count);
-        assert_memory_equal(one->pressure, two->pressure, 4 * one->count);
-        assert_memory_equal(one->id, two->id, 4 * one->count);
+        assert_same_frame(one, two);
         assert_int_equal(one->body_count, two->body_count);
         for (size_t b = 0; b < one->body_count; b++)
             assert_memory_equal(&one->bodies[b].force, &two->bodies[b].force, sizeof one->bodies[b].force);
@@ -213,5 +185,5 @@ int main(void)
         cmocka_unit_test(checkpoints_have_the_bytes_of_one_process),
         cmocka_unit_test(a_full_disk_of_one_rank_leaves_the_checkpoint_before),
     };
-    return cmocka_run_group_tests(tests, setup, program_teardown);
+    return cmocka_run_group_tests(tests, pair_setup_whole, program_teardown);
 }

@@ -14,29 +14,6 @@
 
 static const double CHECKPOINT_SECONDS = 30; /* a tank of few particles */
 
-static int setup(void **state)
-{
-    if (pair_setup(state) != 0) return -1;
-    RUN_AND_FORGET(0, "run", "measured.yaml", "--out", "whole", "--quiet", "--set", EVERY_THREE);
-    return 0;
-}
-
-#define NEEDS_MPI()                                                                                                    \
-    do {                                                                                                               \
-        if (!program_has_mpi()) {                                                                                      \
-            print_message("this build has no MPI, or there is no mpirun\n");                                           \
-            skip();                                                                                                    \
-        }                                                                                                              \
-    } while (0)
-
-/* Runs it on so many ranks. */
-#define RUN_ON(count, status, ...)                                                                                     \
-    do {                                                                                                               \
-        program_on_ranks(count);                                                                                       \
-        RUN_AND_FORGET(status, "run", __VA_ARGS__);                                                                    \
-        program_on_ranks(NULL);                                                                                        \
-    } while (0)
-
 static void tables_and_state_do_not_depend_on_the_ranks(void **state)
 {
     (void)state;
@@ -100,13 +77,6 @@ static pid_t process_of(pid_t mpirun, int rank)
     }
     if (children) fclose(children);
     return found;
-}
-
-/* The line of the program among those of mpirun. Fails unless there is exactly one. */
-static void assert_one_reason(const char *text, const char *expected)
-{
-    assert_int_equal(count_of(text, "shorebreak: "), 1);
-    assert_contains(strstr(text, "shorebreak: "), expected);
 }
 
 static void a_killed_rank_ends_all_and_the_run_resumes(void **state)
@@ -276,5 +246,5 @@ int main(void)
         cmocka_unit_test(a_mistake_of_another_rank_gives_one_line),
         cmocka_unit_test(a_foreign_starter_is_refused),
     };
-    return cmocka_run_group_tests(tests, setup, program_teardown);
+    return cmocka_run_group_tests(tests, pair_setup_whole, program_teardown);
 }

@@ -10,14 +10,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#define NEEDS_MPI()                                                                                                    \
-    do {                                                                                                               \
-        if (!program_has_mpi()) {                                                                                      \
-            print_message("this build has no MPI, or there is no mpirun\n");                                           \
-            skip();                                                                                                    \
-        }                                                                                                              \
-    } while (0)
-
 /* Rank 0 is the program; rank 1 is `other`, which has one more argument if `more` is not NULL. */
 static outcome run_with(const char *out, const char *other, const char *flag, const char *more)
 {
@@ -27,12 +19,6 @@ static outcome run_with(const char *out, const char *other, const char *flag, co
         "run", "tank2.yaml", "--out", in_folder("%s", out), "--quiet", "--overwrite", flag, more, NULL});
     program_on_ranks(NULL);
     return o;
-}
-
-static void assert_one_reason(const char *text, const char *expected)
-{
-    assert_int_equal(count_of(text, "shorebreak: "), 1);
-    assert_contains(strstr(text, "shorebreak: "), expected);
 }
 
 static void unequal_options_are_refused(void **state)
