@@ -30,6 +30,13 @@ static void spread(world *w, void *bytes, size_t size, int from, wait state)
     complete(w, &request, from == w->ranks.rank ? -1 : from, state, "order");
 }
 
+void sb_world_gather_at_end(world *w)
+{
+    MPI_Request request;
+    sb_world_check(w, MPI_Ibarrier(w->control, &request), "end");
+    complete(w, &request, -1, (wait){.without_limit = w->ranks.rank > 0}, "end"); /* rank 0 may work alone for long */
+}
+
 /* ---- orders ---- */
 
 void sb_world_order(sb_ranks *ranks, const void *order, size_t size)

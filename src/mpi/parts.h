@@ -67,6 +67,8 @@ _Noreturn void sb_world_end(const world *w, const char *format, ...) __attribute
 
 /* control.c: tells the others that this rank says why all end. */
 void sb_world_tell_end(world *w);
+/* control.c: waits until all ranks are at their end. */
+void sb_world_gather_at_end(world *w);
 /* control.c: receives the notes that have come. */
 void sb_world_take_notes(world *w);
 
@@ -74,6 +76,11 @@ void sb_world_take_notes(world *w);
 sb_status sb_world_meet(world *w, sb_error *error);
 /* peers.c: a rank of this host whose process has ended, or -1. */
 int sb_world_vanished(const world *w);
+
+/* guard.c: ends this process with SB_FAILED, after it has printed the line if there is one, unless sb_world_unguard is
+   called within so many seconds. Guards are not nested. */
+void sb_world_guard(double seconds, const char *line);
+void sb_world_unguard(void);
 
 extern const sb_transport sb_world_transport; /* transport.c */
 

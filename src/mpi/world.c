@@ -41,7 +41,7 @@ static const double LATER_SECONDS = 2;   /* by which other ranks wait longer tha
 static void look_for_failure(world *w)
 {
     sb_world_take_notes(w);
-    if (w->ends) MPI_Abort(MPI_COMM_WORLD, SB_FAILED); /* silently: one line is enough */
+    if (w->ends) sb_world_abort(NULL); /* silently: one line is enough */
     const double later = w->ranks.rank == 0 ? 0 : LATER_SECONDS;
     if (w->heard_when > 0 && sb_clock() > w->heard_when + SB_WORLD_ALONE + later)
         sb_world_end(w, "rank %d on %s: %s", w->heard.rank, sb_world_host(&w->ranks, w->heard.rank), w->heard.text);
@@ -96,6 +96,35 @@ void sb_world_idle(world *w, wait *state, int rank)
 
 /* ---- begin and end ---- */
 
+static const double LATEST_ABORT = 5; /* s in which MPI has to end all ranks */
+
+/* Begins MPI. The starter's number of this process names it in the line for one that waits too long. */
+static bool begin_mpi(double deadline)
+{
+    char late[160];
+    int provided = 0;
+    snprintf(late, sizeof late,
+             "rank %d has waited for the begin of MPI, expected less than --rank-deadline %g s: all ranks end",
+             sb_world_started_as(), deadline);
+    sb_world_guard(deadline + (sb_world_started_as() > 0 ? LATER_SECONDS : 0), late);
+    const int code = MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &provided);
+    sb_world_unguard();
+    return code == MPI_SUCCESS && provided >= MPI_THREAD_FUNNELED;
+}
+
+/* Ends MPI, whose last call waits for all ranks. */
+static void end_mpi(const world *w)
+{
+    char late[SB_WORLD_HOST + 160];
+    snprintf(late, sizeof late,
+             "rank %d has waited for the end of MPI in the others, expected less than --rank-deadline %g s: all ranks "
+             "end",
+             w->ranks.rank, w->deadline);
+    sb_world_guard(w->deadline + (w->ranks.rank > 0 ? LATER_SECONDS : 0), late);
+    MPI_Finalize();
+    sb_world_unguard();
+}
+
 static void set_up(world *w)
 {
     enum { SLACK = 1000 }; /* ns */
@@ -112,14 +141,12 @@ static void set_up(world *w)
 
 sb_status sb_world_join(double deadline, sb_world_fatal *fatal, sb_ranks **ranks, sb_error *error)
 {
-    int provided = 0;
     *ranks = NULL;
     if (!sb_world_started()) return SB_OK;
     /* Open MPI yields the core at each look when there are more ranks than cores. With other processes on the cores
        each yield costs milliseconds; sb_world_idle sleeps instead. */
     setenv("OMPI_MCA_mpi_yield_when_idle", "0", 0);
-    if (MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS || provided < MPI_THREAD_FUNNELED)
-        return sb_fail(error, SB_FAILED, "MPI: cannot begin with threads beside it");
+    if (!begin_mpi(deadline)) return sb_fail(error, SB_FAILED, "MPI: cannot begin with threads beside it");
     world *w = sb_alloc(1, sizeof *w);
     if (!w) return sb_fail_memory(error, "the ranks");
     w->deadline = deadline;
@@ -147,9 +174,10 @@ void sb_world_leave(sb_ranks *ranks)
 {
     if (!ranks) return;
     world *w = ranks->context;
+    if (w->peers && w->ranks.count > 1) sb_world_gather_at_end(w);
     MPI_Comm_free(&w->data);
     MPI_Comm_free(&w->control);
-    MPI_Finalize();
+    end_mpi(w);
     sb_free(w->peers);
     sb_free(w->requests);
     sb_free(w->partners);
@@ -159,6 +187,7 @@ void sb_world_leave(sb_ranks *ranks)
 
 void sb_world_abort(sb_ranks *ranks)
 {
+    sb_world_guard(LATEST_ABORT, NULL);
     if (ranks) sb_world_tell_end(ranks->context);
     MPI_Abort(MPI_COMM_WORLD, SB_FAILED);
 }

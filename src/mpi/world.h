@@ -14,13 +14,14 @@
 typedef void sb_world_fatal(const char *line);
 
 /* Joins the other processes. *ranks: NULL if this process is alone; no MPI is called without a starter. deadline: s
-   that this rank waits for another one within an order before the run ends. SB_FAILED if the system refuses it, or if
-   the starter tells of several processes and there is no MPI in this build, or MPI finds only this one. */
+   that this rank waits for another one, within an order or at the begin and the end of MPI, before the run ends.
+   SB_FAILED if the system refuses it, or if the starter tells of several processes and there is no MPI in this build,
+   or MPI finds only this one. */
 sb_status sb_world_join(double deadline, sb_world_fatal *fatal, sb_ranks **ranks, sb_error *error);
 /* Ends MPI and frees *ranks. All ranks call it at their end; it waits for them without using the processor. NULL has no
    effect. */
 void sb_world_leave(sb_ranks *ranks);
-/* Ends all ranks; the exit status is 2. Returns only if MPI cannot. */
+/* Ends all ranks; the exit status is 2. It returns, or ends this process after five seconds, only if MPI cannot. */
 void sb_world_abort(sb_ranks *ranks);
 
 /* The host of a rank; valid until sb_world_leave. */

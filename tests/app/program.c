@@ -216,6 +216,25 @@ pid_t program_start_without_reader(const char *const *arguments)
     return start(arguments, false);
 }
 
+/* What a process that does not end, and its children, wait for. */
+static void tell_waiting(pid_t process)
+{
+    char path[64];
+    int child;
+    for (const char *const *what = (const char *const[]){"stat", "wchan", NULL}; *what; what++) {
+        char text[512] = "";
+        snprintf(path, sizeof path, "/proc/%d/%s", (int)process, *what);
+        FILE *file = fopen(path, "r");
+        if (file && !fgets(text, sizeof text, file)) text[0] = '\0';
+        if (file) fclose(file);
+        print_error("process %d: %s: %s\n", (int)process, *what, text);
+    }
+    snprintf(path, sizeof path, "/proc/%d/task/%d/children", (int)process, (int)process);
+    FILE *children = fopen(path, "r");
+    while (children && fscanf(children, "%d", &child) == 1) tell_waiting(child);
+    if (children) fclose(children);
+}
+
 outcome program_finish(pid_t process)
 {
     int how = 0;
@@ -223,9 +242,11 @@ outcome program_finish(pid_t process)
     pid_t ended = 0;
     while ((ended = waitpid(process, &how, WNOHANG)) == 0 && sb_clock() < deadline) usleep(2000);
     if (ended == 0) {
+        tell_waiting(process);
         kill(process, SIGKILL);
         waitpid(process, &how, 0);
-        fail_msg("the program did not end within %g s", TIMEOUT);
+        fail_msg("the program did not end within %g s; its output:\n%s%s", TIMEOUT, text_of("stdout.txt"),
+                 text_of("stderr.txt"));
     }
     assert_int_equal(ended, process);
     return (outcome){.status = WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how),

@@ -118,6 +118,36 @@ static void a_silent_rank_ends_all_with_status_2(void **state)
     outcome_free(&o);
 }
 
+/* Rank 1 stops at a call of MPI in which the others wait: the deadline counts there as well. */
+static void expect_end(const char *place, const char *reason)
+{
+    setenv("STOPPED", place, 1);
+    setenv("LD_PRELOAD", SB_BINARY_DIR "/libstopping_end.so", 1);
+    program_on_ranks("2");
+    outcome o = RUN(2, "run", "measured.yaml", "--out", place, "--quiet", "--rank-deadline", "2");
+    program_on_ranks(NULL);
+    unsetenv("LD_PRELOAD");
+    unsetenv("STOPPED");
+    assert_one_reason(o.err, reason);
+    outcome_free(&o);
+}
+
+static void a_rank_that_never_begins_ends_all_with_status_2(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    expect_end("begin", "rank 0 has waited for the begin of MPI, expected less than --rank-deadline 2 s");
+    assert_false(exists("begin"));
+}
+
+static void a_rank_that_never_ends_ends_all_with_status_2(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    expect_end("finalize", "rank 0 has waited for the end of MPI in the others, expected less than --rank-deadline 2");
+    assert_same_run("whole", "finalize", pair_tables);
+}
+
 static void a_signal_stops_all_ranks_at_one_step(void **state)
 {
     (void)state;
@@ -239,6 +269,8 @@ int main(void)
         cmocka_unit_test(a_checkpoint_resumes_with_another_number_of_ranks),
         cmocka_unit_test(a_killed_rank_ends_all_and_the_run_resumes),
         cmocka_unit_test(a_silent_rank_ends_all_with_status_2),
+        cmocka_unit_test(a_rank_that_never_begins_ends_all_with_status_2),
+        cmocka_unit_test(a_rank_that_never_ends_ends_all_with_status_2),
         cmocka_unit_test(a_signal_stops_all_ranks_at_one_step),
         cmocka_unit_test(a_forwarded_signal_stops_one_rank_as_well),
         cmocka_unit_test(unequal_ranks_are_refused),
