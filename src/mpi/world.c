@@ -12,6 +12,8 @@
 #include <sys/prctl.h>
 #include <time.h>
 
+static const double LATEST_ABORT = 5; /* s in which all ranks have to end */
+
 void sb_world_end(const world *w, const char *format, ...)
 {
     char line[SB_WORLD_TEXT + 200];
@@ -19,6 +21,7 @@ void sb_world_end(const world *w, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
+    sb_world_guard(LATEST_ABORT, NULL); /* what it flushes may belong to a thread that hangs */
     w->fatal(line);
     abort();
 }
@@ -95,8 +98,6 @@ void sb_world_idle(world *w, wait *state, int rank)
 }
 
 /* ---- begin and end ---- */
-
-static const double LATEST_ABORT = 5; /* s in which MPI has to end all ranks */
 
 /* Begins MPI. The starter's number of this process names it in the line for one that waits too long. */
 static bool begin_mpi(double deadline)
