@@ -24,8 +24,8 @@ static void end_late(int signal)
 
 static void set_alarm(double seconds)
 {
-    const struct itimerval timer = {.it_value = {.tv_sec = (time_t)seconds,
-                                                 .tv_usec = (suseconds_t)((seconds - floor(seconds)) * 1e6)}};
+    const struct itimerval timer = {
+        .it_value = {.tv_sec = (time_t)seconds, .tv_usec = (suseconds_t)((seconds - floor(seconds)) * 1e6)}};
     setitimer(ITIMER_REAL, &timer, NULL);
 }
 

@@ -12,7 +12,7 @@
 #include <sys/prctl.h>
 #include <time.h>
 
-static const double LATEST_ABORT = 5; /* s in which all ranks have to end */
+static const double LIBRARY_SECONDS = 5; /* that MPI may take to begin, to end, or to end all ranks */
 
 void sb_world_end(const world *w, const char *format, ...)
 {
@@ -21,7 +21,7 @@ void sb_world_end(const world *w, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
-    sb_world_guard(LATEST_ABORT, NULL); /* what it flushes may belong to a thread that hangs */
+    sb_world_guard(LIBRARY_SECONDS, NULL); /* what it flushes may belong to a thread that hangs */
     w->fatal(line);
     abort();
 }
@@ -107,7 +107,7 @@ static bool begin_mpi(double deadline)
     snprintf(late, sizeof late,
              "rank %d has waited for the begin of MPI, expected less than --rank-deadline %g s: all ranks end",
              sb_world_started_as(), deadline);
-    sb_world_guard(deadline + (sb_world_started_as() > 0 ? LATER_SECONDS : 0), late);
+    sb_world_guard(deadline + LIBRARY_SECONDS + (sb_world_started_as() > 0 ? LATER_SECONDS : 0), late);
     const int code = MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &provided);
     sb_world_unguard();
     return code == MPI_SUCCESS && provided >= MPI_THREAD_FUNNELED;
@@ -121,7 +121,7 @@ static void end_mpi(const world *w)
              "rank %d has waited for the end of MPI in the others, expected less than --rank-deadline %g s: all ranks "
              "end",
              w->ranks.rank, w->deadline);
-    sb_world_guard(w->deadline + (w->ranks.rank > 0 ? LATER_SECONDS : 0), late);
+    sb_world_guard(w->deadline + LIBRARY_SECONDS + (w->ranks.rank > 0 ? LATER_SECONDS : 0), late);
     MPI_Finalize();
     sb_world_unguard();
 }
@@ -188,7 +188,7 @@ void sb_world_leave(sb_ranks *ranks)
 
 void sb_world_abort(sb_ranks *ranks)
 {
-    sb_world_guard(LATEST_ABORT, NULL);
+    sb_world_guard(LIBRARY_SECONDS, NULL);
     if (ranks) sb_world_tell_end(ranks->context);
     MPI_Abort(MPI_COMM_WORLD, SB_FAILED);
 }
