@@ -78,7 +78,7 @@ sb_status sb_world_meet(world *w, sb_error *error);
 int sb_world_vanished(const world *w);
 
 /* guard.c: ends this process with SB_FAILED, after it has printed the line if there is one, unless sb_world_unguard is
-   called within so many seconds. Guards are not nested. */
+   called within so many seconds, rounded up, in which this process is not stopped. A guard replaces the one before. */
 void sb_world_guard(double seconds, const char *line);
 void sb_world_unguard(void);
 

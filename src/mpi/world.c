@@ -39,6 +39,7 @@ void sb_world_check(world *w, int code, const char *what)
 /* ---- waiting ---- */
 
 static const double LOOK_SECONDS = 0.25; /* between two looks at the other processes */
+static const double GAP_SECONDS = 1;     /* between two looks, above which this process was stopped itself */
 static const double LATER_SECONDS = 2;   /* by which other ranks wait longer than rank 0, so that one line is printed */
 
 static void look_for_failure(world *w)
@@ -89,6 +90,7 @@ void sb_world_idle(world *w, wait *state, int rank)
     const double now = sb_clock();
     if (!(state->begun > 0)) state->begun = state->looked = now;
     if (now > state->looked + LOOK_SECONDS) {
+        if (now > state->looked + GAP_SECONDS) state->begun += now - state->looked;
         state->looked = now;
         look_for_failure(w);
         look_for_ended(w, now - state->begun);

@@ -118,6 +118,26 @@ static void a_silent_rank_ends_all_with_status_2(void **state)
     outcome_free(&o);
 }
 
+/* As a queue of jobs does that makes room for another one: the deadline does not count for a rank that is stopped. */
+static void stopped_together_they_go_on(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    program_on_ranks("2");
+    pid_t process = program_start((const char *const[]){"run", "measured.yaml", "--out", "together", "--quiet", "--set",
+                                                        EVERY_THREE, "--rank-deadline", "2", NULL});
+    wait_for_checkpoint("together", process);
+    const pid_t both[] = {process_of(process, 0), process_of(process, 1)};
+    for (int k = 0; k < 2; k++) assert_true(both[k] > 0 && kill(both[k], SIGSTOP) == 0);
+    usleep(5000000);
+    for (int k = 0; k < 2; k++) assert_int_equal(kill(both[k], SIGCONT), 0);
+    outcome o = program_finish(process);
+    program_on_ranks(NULL);
+    assert_int_equal(o.status, 0);
+    outcome_free(&o);
+    assert_same_run("whole", "together", pair_tables);
+}
+
 /* Rank 1 stops at a call of MPI in which the others wait: the deadline counts there as well. */
 static void expect_end(const char *place, const char *reason)
 {
@@ -269,6 +289,7 @@ int main(void)
         cmocka_unit_test(a_checkpoint_resumes_with_another_number_of_ranks),
         cmocka_unit_test(a_killed_rank_ends_all_and_the_run_resumes),
         cmocka_unit_test(a_silent_rank_ends_all_with_status_2),
+        cmocka_unit_test(stopped_together_they_go_on),
         cmocka_unit_test(a_rank_that_never_begins_ends_all_with_status_2),
         cmocka_unit_test(a_rank_that_never_ends_ends_all_with_status_2),
         cmocka_unit_test(a_signal_stops_all_ranks_at_one_step),
