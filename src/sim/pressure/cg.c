@@ -7,15 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Length of a projection step in units of 1/D. From 2/lambda_max of D^-1 A on, the shortest modes would grow. With wide
-   supports that limit is below this value. */
-static const double PROJECTION = 0.55;
-
-static float projection(const sb_sim *sim)
-{
-    return (float)fmin(PROJECTION, 2 / sb_pressure_spectrum(sim));
-}
-
 /* Inner products of one sweep. */
 typedef struct sums {
     double free, chopped; /* |phi|^2_D, |beta|^2_D: gradient on q > 0, and inward gradient on q = 0 */
@@ -83,7 +74,8 @@ static void advance(sb_sim *sim, float length)
 static void project(sb_sim *sim)
 {
     const size_t n = sim->state.n;
-    const float length = projection(sim);
+    /* In units of 1/D. With a longer step the shortest modes of D^-1 A would grow. */
+    const float length = (float)(2 / sb_pressure_spectrum(sim));
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
         if (sim->work.unknown[i] == 0 || sim->work.diagonal[i] == 0) continue;

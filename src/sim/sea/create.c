@@ -3,9 +3,6 @@
 
 #include <math.h>
 
-/* Spacings between the places along a side at which the outgoing wave is measured. */
-static const double STATION = 4;
-
 static double level_of(const sb_sim *sim, const sb_strip_side *s, double inwards, double along)
 {
     sb_given at;
@@ -37,7 +34,8 @@ static int create_side(const sb_sim *sim, int side, sb_strip_side *s)
     s->width = (int64_t)nearbyint(ground->strip / quantum);
     const double low = model->sea[2 * s->other].strip, high = model->sea[2 * s->other + 1].strip;
     const double free = model->dimensions == 2 ? dr : fmax(length - low - high, dr);
-    s->stations = model->dimensions == 2 ? 1 : (size_t)fmax(round(free / (STATION * dr)), 1);
+    /* The outgoing wave is measured at places one width of the strip apart. */
+    s->stations = model->dimensions == 2 ? 1 : (size_t)fmax(round(free / ground->strip), 1);
     s->station_from = low;
     s->station_pitch = free / (double)s->stations;
     s->columns = ground->along;

@@ -19,9 +19,6 @@ static const double NEAR = 0.7, FAR = 1.2;
 /* Layers at rest below which a column may fall dry. */
 static const int STILL_DEEP = 4;
 
-/* Spacings inwards from the edge in which particles are looked for. */
-static const double EDGE = 3;
-
 /* Gain and largest part of the correction by which the strip's content follows its volume, as a part of the inflow. */
 static const double CONTENT_GAIN = 2, CONTENT_MOST = 0.5;
 
@@ -146,7 +143,7 @@ static void count_content(sb_sim *sim, sb_strip_side *s)
     sim->exchange->count(sim, s->content, s->columns);
 }
 
-/* Particles of the strip near its outer edge, and those that have come in in this step: whose order has no meaning. */
+/* Particles of the strip, and those that have come in in this step: whose order has no meaning. */
 typedef struct edge {
     sb_vec3 *at; /* m */
     size_t count, capacity;
@@ -181,13 +178,12 @@ static int share_edge(const sb_sim *sim, edge *e, bool failed)
 
 static int find_edge(const sb_sim *sim, const sb_strip_side *s, edge *e)
 {
-    const int64_t within = (int64_t)(EDGE * sim->scene->resolution / sim->space.quantum);
     const size_t n = sim->state.n;
     int failed = 0;
 #pragma omp parallel for schedule(static) reduction(|| : failed)
     for (size_t i = 0; i < n; i++) {
         const int64_t inwards = sb_strip_inwards(s, sim->state.position[i]);
-        if (inwards < 0 || inwards > within) continue;
+        if (inwards < 0 || inwards > s->width) continue;
 #pragma omp critical(sb_edge)
         failed = add_to_edge(e, sb_space_position(&sim->space, sim->state.position[i])) != 0 || failed;
     }

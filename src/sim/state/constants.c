@@ -5,16 +5,16 @@
 
 #include <math.h>
 
-/* Circular frequency of the slowest oscillation of the water: half a wavelength over its longest horizontal extent, at
-   its mean depth. 1/s. */
-static double slowest(const sb_scene *scene, const sb_model *model)
+/* Circular frequency of the slowest oscillation of the water: half a wavelength over its longest horizontal extent,
+   with the speed of waves on its mean depth, or without gravity with the given speed. 1/s. */
+static double slowest(const sb_scene *scene, const sb_model *model, double weightless)
 {
     const double dr = scene->resolution;
     sb_vec3 low, high;
     if (!sb_model_extent(model, &low, &high)) return 0;
     const double x = high.x - low.x + dr, y = scene->dimensions == 2 ? dr : high.y - low.y + dr;
-    const double depth = (double)model->fluid_count * dr * dr * dr / (x * y);
-    return acos(-1) * sqrt(scene->fluid.gravity * depth) / fmax(x, y);
+    const double depth = (double)model->fluid_count * dr * dr * dr / (x * y), g = scene->fluid.gravity;
+    return acos(-1) * (g > 0 ? sqrt(g * depth) : weightless) / fmax(x, y);
 }
 
 /* Speed that the pressure of surface tension gives to water that is a ball (2D: a disc): sqrt(2 sigma/(rho R)). */
@@ -43,7 +43,7 @@ sb_constants sb_constants_of(const sb_scene *scene, const sb_model *model)
         .mass = (float)mass,
         .gravity = (float)g,
         .wave_speed = (float)wave_speed,
-        .slowest = (float)slowest(scene, model),
+        .slowest = (float)slowest(scene, model, wave_speed),
         .sound_speed = (float)sound,
         .stiffness = (float)sb_tait_stiffness(scene->fluid.density, sound),
         .viscosity = (float)scene->fluid.viscosity,

@@ -18,8 +18,7 @@ typedef struct fastest {
    hold back the water's levels. */
 static float kept(const sb_sim *sim)
 {
-    const bool by_slowest = sim->policy->keep < 1 && sim->constant.slowest > 0;
-    return by_slowest ? expf(-2 * sim->constant.slowest * (float)sim->state.time_step) : sim->policy->keep;
+    return sim->policy->damps ? expf(-2 * sim->constant.slowest * (float)sim->state.time_step) : 1;
 }
 
 SB_MULTIVERSION

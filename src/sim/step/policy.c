@@ -2,9 +2,6 @@
 
 #include <math.h>
 
-/* Fraction of the velocity that a damped step keeps (docs/decisions/0018). */
-#define DAMPING 0.9f
-
 /* Damped water moves in proportion to dt^2, and it is slow enough for longer steps. */
 #define DAMPED_STEP 1.5
 
@@ -22,7 +19,6 @@ const sb_step_policy sb_policy_run = {
     .name = "running",
     .runs = true,
     .moves = true,
-    .keep = 1,
     .keep_after = 1,
     .step_factor = 1,
     .longest_step = ANY,
@@ -32,7 +28,7 @@ const sb_step_policy sb_policy_damp = {
     .name = "damping",
     .holds_wave = true,
     .moves = true,
-    .keep = DAMPING,
+    .damps = true,
     .keep_after = 1,
     .step_factor = DAMPED_STEP,
     .longest_step = ANY,
@@ -43,7 +39,6 @@ const sb_step_policy sb_policy_creep = {
     .name = "creeping",
     .holds_wave = true,
     .moves = true,
-    .keep = 1,
     .keep_after = 0,
     .step_factor = 1,
     .longest_step = CREEPING_STEP,
@@ -53,7 +48,6 @@ const sb_step_policy sb_policy_creep = {
 const sb_step_policy sb_policy_start_trial = {
     .name = "start trial",
     .moves = false,
-    .keep = 1,
     .keep_after = 1,
     .step_factor = 1,
     .longest_step = ANY,

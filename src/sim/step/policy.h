@@ -10,8 +10,8 @@ typedef struct sb_step_policy {
     bool runs;           /* time advances, paddles move; ledger, impulses on bodies and departures' energy are booked */
     bool holds_wave;     /* an acceleration holds the surface of an initial wave */
     bool moves;          /* particles move */
-    float keep;          /* fraction of the velocity that remains before the particles move */
-    float keep_after;    /* fraction of it that remains after they have moved */
+    bool damps;          /* velocities are damped before the particles move */
+    float keep_after;    /* fraction of the velocity that remains after they have moved */
     double step_factor;  /* on the time step that waves permit */
     double longest_step; /* particle spacings over sqrt(g D) */
     float release;       /* particle spacings by which contact moves out a particle that is too close to a wall */

@@ -11,7 +11,7 @@ static double cfl_step(const sb_numerics *n, const sb_constants *c, double speed
 {
     double h = (double)c->support, g = (double)c->gravity;
     double rest = g > 0 ? sqrt(n->cfl * h / g) : (double)INFINITY;
-    return speed > 1e-6 * (double)c->wave_speed ? fmin(n->cfl * h / speed, rest) : rest;
+    return fmin(n->cfl * h / speed, rest);
 }
 
 static double top_speed(const sb_sim *sim)

@@ -2,12 +2,9 @@
 
 #include "sim/state/simd.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
-
-/* Below this q, slope/q stays constant, so that coincident particles give no infinity. They exert no pressure on each
-   other; jitter separates them. */
-static const float NEAREST = 1e-4f;
 
 SB_MULTIVERSION
 static void cubic(const sb_kernel *kernel, const float *q2, size_t count, float *value, float *slope)
@@ -15,11 +12,9 @@ static void cubic(const sb_kernel *kernel, const float *q2, size_t count, float 
     (void)kernel;
 #pragma omp simd
     for (size_t i = 0; i < count; i++) {
-        float q = sqrtf(q2[i]);
-        q = q > NEAREST ? q : NEAREST;
-        float s = 1.0f - q;
+        float q = sqrtf(q2[i]), s = 1.0f - q;
         float inner = 6.0f * q * q * (q - 1.0f) + 1.0f, outer = 2.0f * s * s * s;
-        float inner_slope = 18.0f * q - 12.0f, outer_slope = -6.0f * s * s / q;
+        float inner_slope = 18.0f * q - 12.0f, outer_slope = -6.0f * s * s / fmaxf(q, 0.5f);
         value[i] = q < 0.5f ? inner : outer;
         slope[i] = q < 0.5f ? inner_slope : outer_slope;
     }
@@ -49,11 +44,11 @@ static void wendland_c4(const sb_kernel *kernel, const float *q2, size_t count, 
     }
 }
 
+/* slope/q of coincident particles is finite; they exert no pressure on each other, and jitter separates them. */
 static void general(const sb_kernel *kernel, const float *q2, size_t count, float *value, float *slope)
 {
     for (size_t i = 0; i < count; i++) {
-        double q = sqrt((double)q2[i]);
-        if (q < (double)NEAREST) q = (double)NEAREST;
+        const double q = fmax(sqrt((double)q2[i]), (double)FLT_MIN);
         value[i] = (float)kernel->shape(q);
         slope[i] = (float)(kernel->slope(q) / q);
     }
