@@ -109,6 +109,9 @@ static const sb_key keys[] = {
      .applies = TABLE, .only = "source table", .derived = "`level`", .doc = "z of the table's surface 0."},
     {.name = "plane", .type = SB_KEY_NAME, SB_KEY_AT(sb_given_sea, plane), .flags = SB_KEY_REQUIRED,
      .applies = RECORD, .only = "source record", .doc = "Name of the recorded plane."},
+    {.name = "zero", .type = SB_KEY_PLACE, SB_KEY_AT(sb_given_sea, zero), .unit = "m", SB_KEY_ANY, .applies = TABLE,
+     .only = "source table", .derived = "[0, 0]",
+     .doc = "Place [x, y] of the table that is (0, 0) of the scene, as `origin` of a terrain; [x] in 2D."},
 };
 /* clang-format on */
 

@@ -106,3 +106,4 @@ typedef struct sb_given_sea {
 } sb_given_sea;
 
 #endif
+    double zero[2];          /* m, place of the table that is (0, 0) of the scene */
