@@ -1,3 +1,4 @@
+#include "physics/solitary_exact.h"
 #include "scene/reader.h"
 
 #include <math.h>
@@ -5,7 +6,7 @@
 static const char *const source_names[] = {"none", "theory", "table", "record", "offshore", NULL};
 static const char *const given_wave_names[] = {"solitary", "regular", "components", NULL};
 static const char *const order_names[] = {"auto", "linear", "second-order", "cnoidal", NULL};
-static const char *const solitary_names[] = {"third-order", "boussinesq", NULL};
+static const char *const solitary_names[] = {"third-order", "boussinesq", "exact", NULL};
 static const char *const given_side_names[] = {"given", "still", NULL};
 static const char *const unit_names[] = {"m", "cm", "mm", "ft", NULL};
 
@@ -87,7 +88,8 @@ static const sb_key keys[] = {
      .doc = "Theory of regular waves; `auto`: `second-order` where H L^2/d^3 < 26.3, otherwise `cnoidal`."},
     {.name = "theory", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_given_sea, theory), .words = solitary_names,
      .applies = SOLITARY, .only = "a solitary wave", .fallback = "third-order",
-     .doc = "Theory of a solitary wave, as in water.wave."},
+     .doc = "Theory of a solitary wave: `third-order` and `boussinesq` as in water.wave, or `exact`, the wave of the full "
+            "equations, computed for H/h from 0.001 to 0.7."},
     {.name = "direction", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_given_sea, direction), .unit = "deg", .min = -360,
      .max = 360, .applies = SOLITARY | REGULAR, .only = "a solitary or regular wave", .fallback = "0",
      .doc = "Direction of travel, from +x towards +y; 0 or 180 in 2D."},
@@ -107,6 +109,9 @@ static const sb_key keys[] = {
      .only = "source table", .fallback = "m", .doc = "Unit of lengths in the table, also in its velocities; times are in seconds."},
     {.name = "datum", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_given_sea, datum), .unit = "m", SB_KEY_ANY,
      .applies = TABLE, .only = "source table", .derived = "`level`", .doc = "z of the table's surface 0."},
+    {.name = "zero", .type = SB_KEY_PLACE, SB_KEY_AT(sb_given_sea, zero), .unit = "m", SB_KEY_ANY, .applies = TABLE,
+     .only = "source table", .derived = "[0, 0]",
+     .doc = "Place [x, y] of the table that is (0, 0) of the scene, as `origin` of a terrain; [x] in 2D."},
     {.name = "plane", .type = SB_KEY_NAME, SB_KEY_AT(sb_given_sea, plane), .flags = SB_KEY_REQUIRED,
      .applies = RECORD, .only = "source record", .doc = "Name of the recorded plane."},
 };
@@ -143,6 +148,15 @@ static sb_status check_regular(sb_reader *reader, const sb_yaml *map, const sb_g
     return sb_reader_fail(reader, map, NULL, "%s", why.text);
 }
 
+static sb_status check_exact(sb_reader *reader, const sb_yaml *map, const sb_given_sea *given)
+{
+    const double lowest = SB_SOLITARY_EXACT_LOWEST * given->depth, highest = SB_SOLITARY_EXACT_HIGHEST * given->depth;
+    if (given->height >= lowest && given->height <= highest) return SB_OK;
+    return sb_reader_fail(reader, map, "height",
+                          "%g m in a depth of %g m has no wave of `theory: exact`, expected metres from %g to %g",
+                          given->height, given->depth, lowest, highest);
+}
+
 static sb_status finish_theory(sb_reader *reader, const sb_yaml *map, sb_given_sea *given)
 {
     const sb_scene *scene = reader->scene;
@@ -167,6 +181,7 @@ static sb_status finish_theory(sb_reader *reader, const sb_yaml *map, sb_given_s
             "%g m in a depth of %g m: a solitary wave cannot be higher than %g of its depth, expected "
             "at most %g m",
             given->height, given->depth, HIGHEST, HIGHEST * given->depth);
+    if (given->wave == SB_GIVEN_SOLITARY && given->theory == SB_GIVEN_EXACT) return check_exact(reader, map, given);
     return given->wave == SB_GIVEN_REGULAR ? check_regular(reader, map, given) : SB_OK;
 }
 

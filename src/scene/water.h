@@ -83,6 +83,13 @@ typedef struct sb_given_component {
     double amplitude, period, direction, phase; /* m, s, degrees, degrees */
 } sb_given_component;
 
+/* Theory of a given solitary wave. */
+typedef enum sb_given_theory {
+    SB_GIVEN_THIRD_ORDER,
+    SB_GIVEN_BOUSSINESQ,
+    SB_GIVEN_EXACT /* of the full equations */
+} sb_given_theory;
+
 /* The block `sea`. Values of other sources and waves are 0. */
 typedef struct sb_given_sea {
     sb_given_source source;
@@ -95,13 +102,14 @@ typedef struct sb_given_sea {
     double origin[2];             /* m, where phases and times are given */
     double ramp;                  /* s in which the wave grows from nothing; 0: none */
     sb_wave_order order;          /* regular waves */
-    sb_solitary_theory theory;    /* solitary wave */
+    sb_given_theory theory;       /* solitary wave */
     size_t component_count;
     sb_given_component *components;
     /* table, record */
     char *file; /* absolute path */
     sb_given_unit unit;
     double datum;            /* m, z of the table's zero */
+    double zero[2];          /* m, place of the table that is (0, 0) of the scene */
     char plane[SB_NAME_MAX]; /* of the record */
 } sb_given_sea;
 

@@ -35,6 +35,7 @@ static sb_status check_places(const sb_line *series, const sb_scene *scene, cons
 {
     const sb_domain *domain = &scene->domain;
     const bool flat = scene->dimensions == 2;
+    const bool table = scene->given.source == SB_GIVEN_TABLE;
     const double width = domain->max.x - domain->min.x, length = flat ? 0 : domain->max.y - domain->min.y;
     for (size_t i = 0; i < series->count; i++) {
         const sb_line_point *point = &series->points[i];
@@ -46,7 +47,9 @@ static sb_status check_places(const sb_line *series, const sb_scene *scene, cons
             "%.500s: the point (%g, %g) lies %g m from the domain, expected points along its side, in metres "
             "of the scene%s",
             path, point->x, point->y, hypot(dx, dy),
-            like_degrees(series) ? "; these look like longitudes and latitudes" : "");
+            like_degrees(series) ? "; these look like longitudes and latitudes"
+            : table              ? "; sea.zero is the place of the table that is (0, 0) of the scene"
+                                 : "");
     }
     return SB_OK;
 }

@@ -62,6 +62,10 @@ static sb_status fill(table *made, const sb_scene *scene, sb_sea_notes *notes, s
     if (status != SB_OK) return status;
     status = sb_table_read(&rows, given->unit, &made->series, error);
     sb_rows_close(&rows);
+    for (size_t i = 0; i < made->series.count; i++) {
+        made->series.points[i].x -= given->zero[0];
+        made->series.points[i].y -= given->zero[1];
+    }
     if (status == SB_OK) status = sb_line_check(&made->series, scene, given->file, error);
     if (status == SB_OK) status = sb_line_finish(&made->series, error);
     if (status == SB_OK) status = check_datum(made, scene, notes, error);

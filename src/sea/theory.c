@@ -1,6 +1,7 @@
 /* Given water from wave theory. */
 #include "base/memory.h"
 #include "physics/regular_wave.h"
+#include "physics/solitary_exact.h"
 #include "physics/wave_sum.h"
 #include "sea/parts.h"
 
@@ -16,6 +17,7 @@ typedef struct theory {
     double lead; /* m, distance of a solitary wave's crest from the origin at the start */
     double celerity;
     sb_solitary solitary;
+    sb_solitary_exact *exact; /* NULL: the wave is `solitary` */
     sb_regular_wave regular;
     size_t count;
     sb_wave_component *components;
@@ -24,18 +26,48 @@ typedef struct theory {
 /* Elevation at the front of a solitary wave, over its height, with which it stands at the origin at the start. */
 static const double FRONT = 1e-4;
 
-static double lead_of(const sb_solitary *wave)
+static double solitary_elevation(const theory *sea, double ahead)
 {
-    double near = 0, far = wave->depth;
-    while (sb_solitary_elevation(wave, far) > FRONT * wave->height) far *= 2;
+    return sea->exact ? sb_solitary_exact_elevation(sea->exact, ahead) : sb_solitary_elevation(&sea->solitary, ahead);
+}
+
+static void solitary_motion(const theory *sea, double ahead, double z, sb_wave_motion *motion)
+{
+    if (sea->exact)
+        sb_solitary_exact_motion(sea->exact, ahead, z, motion);
+    else
+        sb_solitary_motion(&sea->solitary, ahead, fmin(z, sea->depth + sb_solitary_elevation(&sea->solitary, ahead)),
+                           motion);
+}
+
+static double lead_of(const theory *sea)
+{
+    const double front = FRONT * sea->solitary.height;
+    double near = 0, far = sea->depth;
+    while (solitary_elevation(sea, far) > front) far *= 2;
     for (int i = 0; i < 100; i++) {
         const double middle = 0.5 * (near + far);
-        if (sb_solitary_elevation(wave, middle) > FRONT * wave->height)
+        if (solitary_elevation(sea, middle) > front)
             near = middle;
         else
             far = middle;
     }
     return far;
+}
+
+static sb_status make_solitary(theory *made, const sb_given_sea *given, double gravity, sb_error *error)
+{
+    const sb_solitary_theory series =
+        given->theory == SB_GIVEN_BOUSSINESQ ? SB_SOLITARY_BOUSSINESQ : SB_SOLITARY_THIRD_ORDER;
+    made->solitary = (sb_solitary){given->height, given->depth, gravity, series};
+    made->celerity = sb_solitary_celerity(&made->solitary);
+    if (given->theory == SB_GIVEN_EXACT) {
+        const sb_status status = sb_solitary_exact_create(given->height, given->depth, gravity, &made->exact, error);
+        if (status != SB_OK) return status;
+        made->celerity = sb_solitary_exact_celerity(made->exact);
+    }
+    made->lead = lead_of(made);
+    return SB_OK;
 }
 
 static sb_status make_components(theory *made, const sb_given_sea *given, double gravity, sb_error *error)
@@ -79,7 +111,10 @@ static void describe(const theory *made, const sb_given_sea *given, sb_sea_notes
 static void destroy(void *state)
 {
     theory *sea = state;
-    if (sea) sb_free(sea->components);
+    if (sea) {
+        sb_free(sea->components);
+        sb_solitary_exact_destroy(sea->exact);
+    }
     sb_free(sea);
 }
 
@@ -99,9 +134,7 @@ static sb_status create(const sb_scene *scene, const sb_offshore_start *grid, vo
                      .along = {cos(DEGREE * given->direction), sin(DEGREE * given->direction)}};
     sb_status status = SB_OK;
     if (made->kind == SB_GIVEN_SOLITARY) {
-        made->solitary = (sb_solitary){given->height, given->depth, gravity, given->theory};
-        made->celerity = sb_solitary_celerity(&made->solitary);
-        made->lead = lead_of(&made->solitary);
+        status = make_solitary(made, given, gravity, error);
     } else if (made->kind == SB_GIVEN_REGULAR) {
         status = sb_regular_wave_create(given->order, given->height, given->period, given->depth, gravity,
                                         &made->regular, error);
@@ -127,8 +160,7 @@ static void wave_at(const theory *sea, double t, double x, double y, double z, d
     } else {
         if (sea->kind == SB_GIVEN_SOLITARY) {
             const double ahead = s + sea->lead - sea->celerity * t;
-            const double top = sea->depth + sb_solitary_elevation(&sea->solitary, ahead);
-            sb_solitary_motion(&sea->solitary, ahead, fmin(z, top), &motion);
+            solitary_motion(sea, ahead, z, &motion);
         } else {
             sb_regular_wave_at(&sea->regular, s, t, z, &motion);
         }
@@ -181,9 +213,9 @@ static double greatest_speed(const void *state)
     double speed = 0;
     for (int i = 0; i < 256; i++) {
         const double ahead = sea->lead * i / 256;
-        double u, w;
-        sb_solitary_velocity(&sea->solitary, ahead, sea->depth + sb_solitary_elevation(&sea->solitary, ahead), &u, &w);
-        speed = fmax(speed, hypot(u, w));
+        sb_wave_motion motion;
+        solitary_motion(sea, ahead, sea->depth + solitary_elevation(sea, ahead), &motion);
+        speed = fmax(speed, hypot(motion.u, motion.w));
     }
     return speed;
 }

@@ -88,6 +88,50 @@ static void a_stack_with_voids_and_a_datum(void **state)
     outcome_free(&o);
 }
 
+/* Two gauges of GeoClaw at the sea side of the survey, in its coordinates: a wave of 0.5 m over a sea whose level is
+   that of the survey's zero. By the steps of docs/open-sea.md. */
+static void write_gauges(const char *path)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    for (int gauge = 0; gauge < 2; gauge++) {
+        fprintf(file,
+                "# gauge_id= %4d location=( %17.10E %17.10E ) num_eqn=  4\n# Columns: level time q(1 ... num_eqn)\n",
+                gauge + 1, (double)EAST, (double)NORTH + 40 * gauge);
+        for (int k = 0; k <= 20; k++) {
+            const double t = 0.5 * k, eta = 0.25 * (1 - cos(2 * M_PI * t / 10)), depth = 6 + eta;
+            const double u = eta * sqrt(9.81 / 6);
+            fprintf(file, " 01 %15.7E %15.7E %15.7E %15.7E %15.7E\n", t, depth, depth * u, 0.0, eta);
+        }
+    }
+    assert_int_equal(fclose(file), 0);
+}
+
+static void a_table_of_geoclaw_enters_a_real_coast(void **state)
+{
+    (void)state;
+    grid_sample_tiff(&survey, in_folder("survey.tif"));
+    write_gauges(in_folder("line.txt"));
+    write_coast("waves.yaml", "file: survey.tif, origin: [547000, 4250000], voids: fill");
+    const char *const settings[] = {"--set", "domain.sides={x_min: sea}",
+                                    "--set", "sea={source: table, file: line.txt, datum: 0, zero: [547000, 4250000]}",
+                                    "--set", "duration=2",
+                                    "--set", "measure={interval: 0.5, gauges: [{name: sea, x: 30, y: 20}]}"};
+    const char *check[2 + 8 + 1] = {"check", "waves.yaml"}, *run[2 + 8 + 3] = {"run", "waves.yaml"};
+    for (int k = 0; k < 8; k++) check[2 + k] = run[2 + k] = settings[k];
+    run[10] = "--out";
+    run[11] = "waves";
+    outcome o = program_run(check);
+    if (o.status != 0) fail_msg("%s", o.err);
+    assert_contains(o.out, "a table of 2 points, datum 0 m");
+    assert_contains(o.out, "vertical datum: EPSG:5773");
+    outcome_free(&o);
+    o = program_run(run);
+    if (o.status != 0) fail_msg("%s", o.err);
+    outcome_free(&o);
+    assert_true(json_number_of("waves/summary.json", "sea_J") > 0);
+}
+
 static void degrees_are_projected(void **state)
 {
     (void)state;
@@ -142,6 +186,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_stack_with_voids_and_a_datum),
+        cmocka_unit_test(a_table_of_geoclaw_enters_a_real_coast),
         cmocka_unit_test(degrees_are_projected),
         cmocka_unit_test(refusals_name_the_remedy),
     };

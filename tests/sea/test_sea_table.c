@@ -64,6 +64,20 @@ static void several_points_along_a_side(void **state)
     sea_free(&c);
 }
 
+/* Places in the coordinates of a projection, of which one is (0, 0) of the scene. */
+static void a_place_is_the_zero_of_the_scene(void **state)
+{
+    (void)state;
+    static const char far[] = "t,x,y,eta,u,v\n0,547000,4250000,0,0,0\n0,547000,4250004,0.2,0,0\n"
+                              "20,547000,4250000,0,0,0\n20,547000,4250004,0.2,0,0\n";
+    sea_case c;
+    sea_make(&c, SEA_SPACE, TABLE ", zero: [547000, 4250000]", far);
+    assert_near(sea_at(&c, 3, 0, 1, 0).surface, 1.05, 1e-12);
+    sea_free(&c);
+    sea_refused(SEA_SPACE, TABLE, far, "sea.zero is the place of the table that is (0, 0)");
+    sea_refused(SEA_SPACE, "source: none, zero: [1, 2]", NULL, "does not apply");
+}
+
 static void without_a_header_and_with_comments(void **state)
 {
     (void)state;
@@ -154,6 +168,7 @@ int main(void)
         cmocka_unit_test(one_point),
         cmocka_unit_test(interpolation_is_monotone_and_of_second_order),
         cmocka_unit_test(several_points_along_a_side),
+        cmocka_unit_test(a_place_is_the_zero_of_the_scene),
         cmocka_unit_test(without_a_header_and_with_comments),
         cmocka_unit_test(gauges_of_geoclaw),
         cmocka_unit_test(what_is_refused),
