@@ -54,6 +54,7 @@ static const sb_key keys[] = {
     {.name = "depth", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_reflection_set, depth), .unit = "m", .min = 0,
      .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Still-water depth at the gauges."},
     {.name = "bound", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_reflection_set, bound), .fallback = "false",
+     .flags = SB_KEY_LATER,
      .doc = "For regular waves, with four or more gauges: harmonics above the first are split into free waves and waves "
             "bound to the first harmonic."},
     {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_reflection_set, start), .unit = "s", SB_KEY_NOT_NEGATIVE,

@@ -20,6 +20,7 @@ static const sb_key keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_sponge, name), .flags = SB_KEY_REQUIRED,
      .doc = "Unique name of the sponge."},
     {.name = "kind", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_sponge, kind), .words = kind_names, .fallback = "damping",
+     .flags = SB_KEY_LATER,
      .doc = "`damping` slows water down. `viscous`, with `solver: wcsph` only, is the sponge of Wen et al., for "
             "comparison: it takes less."},
     {.name = "side", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_sponge, side), .words = side_names,
