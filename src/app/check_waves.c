@@ -79,9 +79,21 @@ static void print_train(void *context, const sb_scene *scene, const sb_wavemaker
     print_parts(scene, maker, sb_paddle_gain(maker->law.motion, f->number, f->depth));
 }
 
+/* Viscosity at the end of a viscous sponge, m^2/s; 0 of a damping one. */
+static double viscosity_of(const sb_scene *scene, const sb_sponge *sponge)
+{
+    const sb_numerics *n = &scene->numerics;
+    const double sound = n->sound_speed > 0 ? n->sound_speed : 10 * sqrt(scene->fluid.gravity * sponge->depth);
+    if (sponge->kind != SB_SPONGE_VISCOUS) return 0;
+    return sb_sponge_viscosity(sponge->alpha, n->support * scene->resolution, sound, scene->dimensions);
+}
+
 /* Reflected over incident amplitude by linear theory. */
 static double reflection_of(const sb_scene *scene, const sb_sponge *sponge)
 {
+    if (sponge->kind == SB_SPONGE_VISCOUS)
+        return sb_sponge_viscous_reflection(sponge->profile, viscosity_of(scene, sponge), 2 * M_PI / sponge->period,
+                                            sponge->depth, scene->fluid.gravity, sponge->length);
     return sb_sponge_reflection(sponge->profile, sponge->strength, 2 * M_PI / sponge->period, sponge->depth,
                                 scene->fluid.gravity, sponge->length);
 }
@@ -133,9 +145,11 @@ void sb_check_waves_text(const sb_scene *scene)
     visit_trains(scene, print_train, NULL);
     for (size_t s = 0; s < scene->sponge_count; s++) {
         const sb_sponge *sponge = &scene->sponges[s];
-        printf("  sponge %s: %.3g wavelengths of %.4g m, strength %.3g 1/s; predicted reflection %.2g %%\n",
-               sponge->name, sponge->length / wavelength_of(scene, sponge), wavelength_of(scene, sponge),
-               sponge->strength, 100 * reflection_of(scene, sponge));
+        const bool viscous = sponge->kind == SB_SPONGE_VISCOUS;
+        printf("  sponge %s: %.3g wavelengths of %.4g m, %s %.3g %s; predicted reflection %.2g %%\n", sponge->name,
+               sponge->length / wavelength_of(scene, sponge), wavelength_of(scene, sponge),
+               viscous ? "viscosity" : "strength", viscous ? viscosity_of(scene, sponge) : sponge->strength,
+               viscous ? "m^2/s" : "1/s", 100 * reflection_of(scene, sponge));
     }
 }
 
@@ -177,7 +191,10 @@ void sb_check_waves_json(const sb_scene *scene, sb_json *json)
         sb_json_open(json, NULL, '{');
         sb_json_text(json, "name", scene->sponges[s].name);
         sb_json_number(json, "wavelength_m", wavelength_of(scene, &scene->sponges[s]));
-        sb_json_number(json, "strength_per_s", scene->sponges[s].strength);
+        if (scene->sponges[s].kind == SB_SPONGE_VISCOUS)
+            sb_json_number(json, "viscosity_m2_s", viscosity_of(scene, &scene->sponges[s]));
+        else
+            sb_json_number(json, "strength_per_s", scene->sponges[s].strength);
         sb_json_number(json, "predicted_reflection", reflection_of(scene, &scene->sponges[s]));
         sb_json_close(json);
     }

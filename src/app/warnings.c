@@ -10,6 +10,22 @@
 #include <math.h>
 #include <stdio.h>
 
+/* Gauges may not tell free from bound waves: in shallow water both have the same speed. */
+static void warn_of_bound(const sb_reflection_set *set, const double *places, int harmonic, double number, double first,
+                          sb_warning_visit *visit, void *context)
+{
+    char text[500];
+    const double separation = sb_split_bound_separation(places, set->gauge_count, number, harmonic * first);
+    if (separation >= SB_SEPARATION_TRUSTED) return;
+    snprintf(
+        text, sizeof text,
+        "measure.reflections %s: at these gauges free waves of the period %.4g s, which are %.4g m long, and bound "
+        "ones of %.4g m can hardly be told apart (separation %.2g): expected 0.05 or more, by gauges over a longer "
+        "distance, other distances, fewer harmonics or bound: false",
+        set->name, set->period / harmonic, 2 * M_PI / number, 2 * M_PI / (harmonic * first), separation);
+    visit(context, text);
+}
+
 /* Gauges near multiples of half a wavelength apart cannot tell incident from reflected waves. */
 static void warn_of_reflections(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
@@ -17,9 +33,14 @@ static void warn_of_reflections(const sb_scene *scene, sb_warning_visit *visit, 
         const sb_reflection_set *set = &scene->measure.reflections[r];
         double *places = sb_alloc(set->gauge_count, sizeof *places);
         for (size_t i = 0; places && i < set->gauge_count; i++) places[i] = sb_reflection_place(scene, set, i);
+        const double first = sb_wave_number(set->period, set->depth, scene->fluid.gravity);
         for (int h = 1; places && h <= set->harmonics; h++) {
             const double number = sb_wave_number(set->period / h, set->depth, scene->fluid.gravity);
             char text[400];
+            if (set->bound && h > 1) {
+                warn_of_bound(set, places, h, number, first, visit, context);
+                continue;
+            }
             if (sb_split_separation(places, set->gauge_count, number) >= SB_SEPARATION_TRUSTED) continue;
             snprintf(
                 text, sizeof text,

@@ -48,11 +48,12 @@ typedef struct sb_runup_record {
 
 /* The waves of one period at a set of gauges in one window. NaN: the gauges do not determine them. */
 typedef struct sb_reflection_record {
-    size_t set, harmonic;       /* harmonic: 1 for the set's period, 2 for half of it, ... */
-    double from, time;          /* s, the window */
-    double period, wavelength;  /* s, m */
-    double incident, reflected; /* m, amplitudes */
-    double misfit, separation;  /* m, and a number from 0 to 1: see physics/reflection.h */
+    size_t set, harmonic;                   /* harmonic: 1 for the set's period, 2 for half of it, ... */
+    double from, time;                      /* s, the window */
+    double period, wavelength;              /* s, m */
+    double incident, reflected;             /* m, amplitudes */
+    double misfit, separation;              /* m, and a number from 0 to 1: see physics/reflection.h */
+    double bound_incident, bound_reflected; /* m, amplitudes; NaN also where no bound waves are fitted */
 } sb_reflection_record;
 
 /* The water at a point of a recorded plane. */

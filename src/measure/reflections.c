@@ -82,6 +82,18 @@ static size_t fit_gauges(const sb_measure *measure, const sb_reflection_set *set
     return fitted;
 }
 
+/* Splits a harmonic, whose components at the fitted gauges are in `s`. first, number: wave numbers of a free wave of
+   the first harmonic and of this one, 1/m. */
+static sb_split split_one(const sb_reflection_set *set, size_t harmonic, const scratch *s, size_t fitted, double first,
+                          double number)
+{
+    const double none = (double)NAN;
+    const bool bound = set->bound && harmonic > 1;
+    if (fitted < (bound ? 4 : 2)) return (sb_split){none, none, none, none, none, none};
+    if (bound) return sb_split_bound_of(s->places, s->cosine, s->sine, fitted, number, (double)harmonic * first);
+    return sb_split_of(s->places, s->cosine, s->sine, fitted, number);
+}
+
 /* Fits the gauges by their sums, and splits each harmonic. rows: one per harmonic. */
 static sb_status split_all(const sb_measure *measure, size_t index, const double *sums, double from, double time,
                            sb_reflection_record *rows, sb_error *error)
@@ -93,15 +105,15 @@ static sb_status split_all(const sb_measure *measure, size_t index, const double
         return sb_fail_memory(error, "measure.reflections");
     }
     const size_t fitted = fit_gauges(measure, set, sums, &s), n = (size_t)set->harmonics;
+    const double first = sb_wave_number(set->period, set->depth, measure->scene->fluid.gravity);
     for (size_t h = 0; h < n; h++) {
-        const double period = set->period / (double)(h + 1), none = (double)NAN;
+        const double period = set->period / (double)(h + 1);
         const double number = sb_wave_number(period, set->depth, measure->scene->fluid.gravity);
         for (size_t g = 0; g < fitted; g++) {
             s.cosine[g] = s.cosines[g * n + h];
             s.sine[g] = s.sines[g * n + h];
         }
-        const sb_split split =
-            fitted < 2 ? (sb_split){none, none, none, none} : sb_split_of(s.places, s.cosine, s.sine, fitted, number);
+        const sb_split split = split_one(set, h + 1, &s, fitted, first, number);
         rows[h] = (sb_reflection_record){.set = index,
                                          .harmonic = h + 1,
                                          .from = from,
@@ -111,7 +123,9 @@ static sb_status split_all(const sb_measure *measure, size_t index, const double
                                          .incident = split.incident,
                                          .reflected = split.reflected,
                                          .misfit = split.misfit,
-                                         .separation = split.separation};
+                                         .separation = split.separation,
+                                         .bound_incident = split.bound_incident,
+                                         .bound_reflected = split.bound_reflected};
     }
     free_scratch(&s);
     return SB_OK;

@@ -183,8 +183,9 @@ static void write_reflections(FILE *stream, const sb_scene *scene, const sb_mode
     const sb_reflection_record *row = &records->reflections[i];
     begin(stream, row->time, scene->measure.reflections[row->set].name);
     const double values[] = {
-        row->from,      (double)row->harmonic,          row->period, row->wavelength, row->incident,
-        row->reflected, row->reflected / row->incident, row->misfit, row->separation};
+        row->from,           (double)row->harmonic,          row->period, row->wavelength, row->incident,
+        row->reflected,      row->reflected / row->incident, row->misfit, row->separation, row->bound_incident,
+        row->bound_reflected};
     for (size_t c = 0; c < sizeof values / sizeof *values; c++) put(stream, values[c]);
 }
 
@@ -286,9 +287,11 @@ const sb_csv_table sb_csv_tables[] = {
      .write = write_runups},
     {.name = "reflections",
      .header =
-         "time_s,set,from_s,harmonic,period_s,wavelength_m,incident_m,reflected_m,coefficient,misfit_m,separation",
+         "time_s,set,from_s,harmonic,period_s,wavelength_m,incident_m,reflected_m,coefficient,misfit_m,separation,"
+         "bound_incident_m,bound_reflected_m",
      .flat_header =
-         "time_s,set,from_s,harmonic,period_s,wavelength_m,incident_m,reflected_m,coefficient,misfit_m,separation",
+         "time_s,set,from_s,harmonic,period_s,wavelength_m,incident_m,reflected_m,coefficient,misfit_m,separation,"
+         "bound_incident_m,bound_reflected_m",
      .wanted = has_reflections,
      .count = count_reflections,
      .write = write_reflections},

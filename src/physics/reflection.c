@@ -93,7 +93,8 @@ sb_split sb_split_of(const double *x, const double *cosines, const double *sines
 {
     const double n = (double)count;
     double complex s = 0, p = 0, q = 0;
-    sb_split split = {(double)NAN, (double)NAN, (double)NAN, sb_split_separation(x, count, number)};
+    const double none = (double)NAN;
+    sb_split split = {none, none, none, sb_split_separation(x, count, number), none, none};
     for (size_t i = 0; i < count; i++) {
         const double complex e = turned(number * (x[i] - x[0])), z = CMPLX(cosines[i], -sines[i]);
         s += e * e;
@@ -112,5 +113,88 @@ sb_split sb_split_of(const double *x, const double *cosines, const double *sines
     split.incident = cabs(a);
     split.reflected = cabs(b);
     split.misfit = sqrt(square / n);
+    return split;
+}
+
+/* Free incident and reflected wave, bound incident and reflected wave. */
+enum { WAVES = 4 };
+
+/* The waves exp(-i k_m x) at a place. */
+static void waves_at(double x, double free, double bound, double complex waves[WAVES])
+{
+    const double numbers[WAVES] = {free, -free, bound, -bound};
+    for (int m = 0; m < WAVES; m++) waves[m] = turned(-numbers[m] * x);
+}
+
+/* The normal matrix over the number of places, whose diagonal is 1. */
+static void normal_matrix(const double *x, size_t count, double free, double bound, double complex g[WAVES][WAVES])
+{
+    double complex waves[WAVES];
+    for (int m = 0; m < WAVES; m++)
+        for (int l = 0; l < WAVES; l++) g[m][l] = 0;
+    for (size_t i = 0; i < count; i++) {
+        waves_at(x[i] - x[0], free, bound, waves);
+        for (int m = 0; m < WAVES; m++)
+            for (int l = 0; l < WAVES; l++) g[m][l] += conj(waves[m]) * waves[l] / (double)count;
+    }
+}
+
+/* Cholesky's factor L of a Hermitian matrix less `shift` on its diagonal. False: that matrix is not positive. */
+static bool factorise_waves(double complex g[WAVES][WAVES], double shift, double complex lower[WAVES][WAVES])
+{
+    for (int m = 0; m < WAVES; m++)
+        for (int l = 0; l <= m; l++) {
+            double complex sum = g[m][l] - (m == l ? shift : 0);
+            for (int k = 0; k < l; k++) sum -= lower[m][k] * conj(lower[l][k]);
+            if (m == l && !(creal(sum) > 1e-14)) return false;
+            lower[m][l] = m == l ? sqrt(creal(sum)) : sum / lower[l][l];
+        }
+    return true;
+}
+
+double sb_split_bound_separation(const double *x, size_t count, double free, double bound)
+{
+    double complex g[WAVES][WAVES], lower[WAVES][WAVES];
+    double below = 0, above = 1; /* the mean of the eigenvalues is 1 */
+    normal_matrix(x, count, free, bound, g);
+    for (int i = 0; i < 40; i++) { /* to 1e-12 */
+        const double middle = 0.5 * (below + above);
+        *(factorise_waves(g, middle, lower) ? &below : &above) = middle;
+    }
+    return below;
+}
+
+sb_split sb_split_bound_of(const double *x, const double *cosines, const double *sines, size_t count, double free,
+                           double bound)
+{
+    const double none = (double)NAN;
+    double complex g[WAVES][WAVES], lower[WAVES][WAVES], waves[WAVES], a[WAVES] = {0};
+    sb_split split = {none, none, none, sb_split_bound_separation(x, count, free, bound), none, none};
+    normal_matrix(x, count, free, bound, g);
+    if (split.separation < 1e-8 || !factorise_waves(g, 0, lower)) return split;
+    for (size_t i = 0; i < count; i++) {
+        waves_at(x[i] - x[0], free, bound, waves);
+        for (int m = 0; m < WAVES; m++) a[m] += conj(waves[m]) * CMPLX(cosines[i], -sines[i]) / (double)count;
+    }
+    for (int m = 0; m < WAVES; m++) {
+        for (int k = 0; k < m; k++) a[m] -= lower[m][k] * a[k];
+        a[m] /= lower[m][m];
+    }
+    for (int m = WAVES; m-- > 0;) {
+        for (int k = m + 1; k < WAVES; k++) a[m] -= conj(lower[k][m]) * a[k];
+        a[m] /= lower[m][m];
+    }
+    double square = 0;
+    for (size_t i = 0; i < count; i++) {
+        double complex rest = CMPLX(cosines[i], -sines[i]);
+        waves_at(x[i] - x[0], free, bound, waves);
+        for (int m = 0; m < WAVES; m++) rest -= a[m] * waves[m];
+        square += creal(rest * conj(rest));
+    }
+    split.incident = cabs(a[0]);
+    split.reflected = cabs(a[1]);
+    split.bound_incident = cabs(a[2]);
+    split.bound_reflected = cabs(a[3]);
+    split.misfit = sqrt(square / (double)count);
     return split;
 }

@@ -19,6 +19,7 @@ typedef struct sb_split {
     double incident, reflected; /* m, amplitudes; NaN where the gauges do not determine them */
     double misfit;              /* m, root mean square over the gauges of the amplitude that both do not explain */
     double separation;          /* see sb_split_separation */
+    double bound_incident, bound_reflected; /* m, amplitudes; NaN from sb_split_of */
 } sb_split;
 
 /* Fits A cos wt + B sin wt at each place x (m) by an incident wave cos(k x - w t) and a reflected one cos(k x + w t) of
@@ -29,6 +30,15 @@ sb_split sb_split_of(const double *x, const double *cosines, const double *sines
    where they can be separated best. Independent errors e of the gauges
    give errors e/sqrt(count s(2 - s)) of the amplitudes, with s the separation. */
 double sb_split_separation(const double *x, size_t count, double number);
+
+/* Fits free waves of wave number `free` and bound ones of wave number `bound`, 1/m, incident and reflected, at once
+   over four or more places: a harmonic of regular waves travels at its own speed, and also with the first harmonic. */
+sb_split sb_split_bound_of(const double *x, const double *cosines, const double *sines, size_t count, double free,
+                           double bound);
+
+/* The smallest eigenvalue of the normal matrix of these four waves over count, from 0 to 1; of two waves it is
+   sb_split_separation. Independent errors e of the gauges give errors of at most e/sqrt(count s) of the amplitudes. */
+double sb_split_bound_separation(const double *x, size_t count, double free, double bound);
 
 /* Separation below which a split is not trusted; two gauges 1/20 or 9/20 of a wavelength apart have it [Goda and Suzuki
    1976]. */

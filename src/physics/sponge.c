@@ -63,3 +63,18 @@ double sb_sponge_best(sb_sponge_profile profile, double omega, double depth, dou
     }
     return best;
 }
+
+double sb_sponge_viscosity(double alpha, double support, double sound_speed, int dimensions)
+{
+    return alpha * support * sound_speed / (4.0 * (dimensions + 2));
+}
+
+double sb_sponge_viscous_reflection(sb_sponge_profile profile, double viscosity, double omega, double depth,
+                                    double gravity, double length)
+{
+    static const double means[] = {
+        [SB_SPONGE_LINEAR] = 1.0 / 2, [SB_SPONGE_QUADRATIC] = 1.0 / 3, [SB_SPONGE_CUBIC] = 1.0 / 4};
+    const double k = sb_wave_number(2 * M_PI / omega, depth, gravity), twice = 2 * k * depth;
+    const double group = omega / k * 0.5 * (1 + twice / sinh(twice));
+    return exp(-2 * viscosity * means[profile] * k * k * 2 * length / group);
+}

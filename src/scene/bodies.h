@@ -96,11 +96,13 @@ typedef struct sb_wavemaker_use {
 /* A zone in which water is slowed down. */
 typedef struct sb_sponge {
     char name[SB_NAME_MAX];
+    sb_sponge_kind kind;
     int side;           /* SB_X_MIN to SB_Y_MAX: the strength grows towards it */
     double end, length; /* m: coordinate at which the strength is reached; length in which it grows */
     sb_sponge_profile profile;
     double period, depth; /* s, m, of the waves */
-    double strength;      /* 1/s, at the end and behind it */
+    double strength;      /* 1/s, at the end and behind it; 0 with kind viscous */
+    double alpha;         /* artificial viscosity there, with kind viscous */
 } sb_sponge;
 
 /* Spray, foam and bubbles: particles for pictures, which the water does not feel. */

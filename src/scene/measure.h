@@ -56,6 +56,7 @@ typedef struct sb_reflection_set {
     double depth;  /* m, still-water depth, for the wave numbers */
     double start;  /* s */
     double window; /* s, at least one period */
+    bool bound;    /* harmonics above the first have free and bound waves; at least 4 gauges */
 } sb_reflection_set;
 
 typedef struct sb_map {

@@ -53,6 +53,10 @@ static const sb_key keys[] = {
      .fallback = "3", .doc = "Number of components: the period and its fractions 1/2, 1/3, ..."},
     {.name = "depth", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_reflection_set, depth), .unit = "m", .min = 0,
      .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Still-water depth at the gauges."},
+    {.name = "bound", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_reflection_set, bound), .fallback = "false",
+     .flags = SB_KEY_LATER,
+     .doc = "For regular waves, with four or more gauges: harmonics above the first are split into free waves and waves "
+            "bound to the first harmonic."},
     {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_reflection_set, start), .unit = "s", SB_KEY_NOT_NEGATIVE,
      .fallback = "0", .doc = "Time at which the first window begins: when the waves are regular."},
     {.name = "window", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_reflection_set, window), .unit = "s", SB_KEY_POSITIVE,
@@ -65,6 +69,10 @@ static sb_status check_gauges(sb_reader *reader, const sb_yaml *map, const sb_re
     const sb_scene *scene = reader->scene;
     if (set->gauge_count < 3)
         return sb_reader_fail(reader, map, "gauges", "has %zu gauges, expected at least 3", set->gauge_count);
+    if (set->bound && set->gauge_count < 4)
+        return sb_reader_fail(reader, map, "bound",
+                              "true with 3 gauges: free and bound, incident and reflected waves "
+                              "are four unknowns, expected at least 4 gauges");
     for (size_t i = 0; i < set->gauge_count; i++)
         if (sb_scene_gauge(scene, set->gauges[i].name) == scene->measure.gauge_count)
             return sb_reader_fail(reader, map, "gauges", "no gauge is named %s, expected names of measure.gauges",
@@ -99,6 +107,10 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
             "the shortest period of %g s has less than two rows of measure.interval %g s, expected fewer "
             "harmonics or a shorter interval",
             set->period / set->harmonics, interval);
+    if (set->bound && set->harmonics < 2)
+        return sb_reader_fail(reader, map, "bound",
+                              "true with one harmonic: the first has no bound waves, expected "
+                              "harmonics: 2 or more");
     return SB_OK;
 }
 

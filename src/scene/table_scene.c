@@ -181,6 +181,18 @@ static const sb_key scene_keys[] = {
 };
 /* clang-format on */
 
+/* The viscosity of a sponge would make implicit steps many times shorter, in the whole domain. */
+static sb_status check_sponges(sb_reader *reader, const sb_yaml *map, const sb_scene *scene)
+{
+    for (size_t s = 0; s < scene->sponge_count && scene->numerics.solver != SB_SOLVER_WCSPH; s++)
+        if (scene->sponges[s].kind == SB_SPONGE_VISCOUS)
+            return sb_reader_fail(
+                reader, map, "sponges",
+                "%s: kind viscous needs numerics.solver wcsph, expected kind: damping, or that solver",
+                scene->sponges[s].name);
+    return SB_OK;
+}
+
 /* What explicit steps do not know. */
 static sb_status check_explicit(sb_reader *reader, const sb_yaml *map, const sb_scene *scene)
 {
@@ -287,6 +299,7 @@ static sb_status finish_scene(sb_reader *reader, const sb_yaml *map, void *item)
     sb_scene *scene = item;
     if (scene->control.enabled) scene->stream.enabled = true; /* it has the run's id and sends the replies */
     sb_status status = check_explicit(reader, map, scene);
+    if (status == SB_OK) status = check_sponges(reader, map, scene);
     if (status == SB_OK) status = check_sea(reader, map, scene);
     if (status == SB_OK) status = finish_nested(reader, map, scene);
     if (status == SB_OK) status = check_tension(reader, map, scene);

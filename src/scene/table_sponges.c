@@ -4,12 +4,25 @@
 #include <string.h>
 
 static const char *const side_names[] = {"x_min", "x_max", "y_min", "y_max", NULL};
+static const char *const kind_names[] = {"damping", "viscous", NULL};
 static const char *const profile_names[] = {"linear", "quadratic", "cubic", NULL};
+
+enum { DAMPING = 1 << SB_SPONGE_DAMPING, VISCOUS = 1 << SB_SPONGE_VISCOUS };
+
+static unsigned variant(const void *item, const sb_yaml *map)
+{
+    (void)map;
+    return 1u << ((const sb_sponge *)item)->kind;
+}
 
 /* clang-format off */
 static const sb_key keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_sponge, name), .flags = SB_KEY_REQUIRED,
      .doc = "Unique name of the sponge."},
+    {.name = "kind", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_sponge, kind), .words = kind_names, .fallback = "damping",
+     .flags = SB_KEY_LATER,
+     .doc = "`damping` slows water down. `viscous`, with `solver: wcsph` only, is the sponge of Wen et al., for "
+            "comparison: it takes less."},
     {.name = "side", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_sponge, side), .words = side_names,
      .flags = SB_KEY_REQUIRED, .doc = "Side of the domain towards which the strength grows."},
     {.name = "end", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, end), .unit = "m", SB_KEY_ANY,
@@ -23,8 +36,11 @@ static const sb_key keys[] = {
     {.name = "depth", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, depth), .unit = "m", .min = 0, .max = HUGE_VAL,
      .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Still-water depth there."},
     {.name = "strength", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, strength), .unit = "1/s", SB_KEY_POSITIVE,
-     .derived = "the one with the least reflection by linear theory",
+     .applies = DAMPING, .only = "kind damping", .derived = "the one with the least reflection by linear theory",
      .doc = "Greatest strength: water loses this share of its velocity per second."},
+    {.name = "alpha", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, alpha), .min = 0, .max = 1, .flags = SB_KEY_ABOVE,
+     .applies = VISCOUS, .only = "kind viscous", .fallback = "0.6",
+     .doc = "Greatest coefficient of an artificial viscosity, which the water has beside `artificial_viscosity`."},
 };
 /* clang-format on */
 
@@ -48,10 +64,10 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     if (!(sponge->length <= sides[2 * axis + 1] - sides[2 * axis]))
         return sb_reader_fail(reader, map, "length", "%g m is longer than the domain, expected at most %g m",
                               sponge->length, sides[2 * axis + 1] - sides[2 * axis]);
-    if (!sb_yaml_child(map, "strength"))
+    if (sponge->kind == SB_SPONGE_DAMPING && !sb_yaml_child(map, "strength"))
         sponge->strength = sb_sponge_best(sponge->profile, 2 * M_PI / sponge->period, sponge->depth,
                                           scene->fluid.gravity, sponge->length);
     return SB_OK;
 }
 
-const sb_table sb_sponge_table = {SB_KEY_ROWS(keys), .size = sizeof(sb_sponge), .finish = finish};
+const sb_table sb_sponge_table = {SB_KEY_ROWS(keys), .size = sizeof(sb_sponge), .variant = variant, .finish = finish};

@@ -219,11 +219,27 @@ static void put_row(writer *out, const sb_key *key, const void *item)
     }
 }
 
+/* Whether a key that was added later has the value that scenes had without it. */
+static bool is_as_before(const sb_key *key, const void *item)
+{
+    const char *field = (const char *)item + key->offset;
+    int choice = 0;
+    if (!(key->flags & SB_KEY_LATER)) return false;
+    if (key->type == SB_KEY_SWITCH) return !*(const bool *)field;
+    memcpy(&choice, field, sizeof choice);
+    return choice == 0;
+}
+
+static bool is_identity(const sb_key *key, const void *item)
+{
+    return !(key->flags & SB_KEY_FREE) && !is_as_before(key, item);
+}
+
 static void put_rows(writer *out, const sb_table *table, const void *item)
 {
     unsigned variant = sb_table_variant(table, item, NULL);
     for (size_t i = 0; i < table->count; i++)
-        if (sb_key_applies(&table->keys[i], variant) && !(out->identity && table->keys[i].flags & SB_KEY_FREE))
+        if (sb_key_applies(&table->keys[i], variant) && (!out->identity || is_identity(&table->keys[i], item)))
             put_row(out, &table->keys[i], item);
 }
 

@@ -31,6 +31,13 @@ static sb_status create_space(sb_sim *sim, sb_error *error)
     return status;
 }
 
+static bool has_sponge(const sb_scene *scene, sb_sponge_kind kind)
+{
+    bool any = false;
+    for (size_t s = 0; s < scene->sponge_count; s++) any = any || scene->sponges[s].kind == kind;
+    return any;
+}
+
 static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
 {
     const sb_numerics *n = &scene->numerics;
@@ -48,7 +55,9 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
         .sea = sb_scene_sea_side(scene, 0) || sb_scene_sea_side(scene, 1) || sb_scene_sea_side(scene, 2) ||
                sb_scene_sea_side(scene, 3),
         .surface_tension = scene->fluid.surface_tension > 0,
-        .sponge = scene->sponge_count > 0,
+        .sponge = has_sponge(scene, SB_SPONGE_DAMPING),
+        .viscous_sponge = has_sponge(scene, SB_SPONGE_VISCOUS),
+        .eddy = n->turbulence == SB_TURBULENCE_SPS || has_sponge(scene, SB_SPONGE_VISCOUS),
         .foam = scene->foam.enabled,
         .settling = settling,
         .start_velocity = settling && sb_model_start_speed(model) > 0,

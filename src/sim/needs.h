@@ -12,8 +12,10 @@ typedef struct sb_needs {
     bool images;                /* walls reflect water */
     bool sea;                   /* water of a given sea comes in through a side */
     bool surface_tension;
-    bool sponge; /* zones slow water down */
-    bool foam;   /* water emits spray, foam and bubbles */
+    bool sponge;         /* zones slow water down */
+    bool viscous_sponge; /* zones have a viscosity */
+    bool eddy;           /* particles have a viscosity of their own: turbulence or viscous_sponge */
+    bool foam;           /* water emits spray, foam and bubbles */
     bool settling;
     bool start_velocity;     /* water in motion at t = 0, after settling */
     bool implicit;           /* steps have a pressure solve */

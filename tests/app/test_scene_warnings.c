@@ -49,6 +49,13 @@ static void check_and_run_give_the_same_warnings(void **state)
          "fluid.surface_tension: 0.0728 N/m acts below 0.00272 m", "expected a resolution below 0.00136 m"},
         {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\nfoam: {enabled: true}\n",
          "foam.enabled: true, but the run draws no pictures", "expected render.interval or output.particle_interval"},
+        {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\noutput: {plots: false}\n"
+         "domain: {min: [0, 0], max: [4, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
+         "measure:\n  interval: 0.01\n  gauges: [{name: a, x: 1}, {name: b, x: 1.2}, {name: c, x: 1.5}, {name: d, x: "
+         "3}]\n"
+         "  reflections: [{name: r, gauges: [a, b, c, d], period: 4, depth: 0.4, harmonics: 2, bound: true}]\n",
+         "measure.reflections r: at these gauges free waves of the period 2 s",
+         "expected 0.05 or more, by gauges over"},
         {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\nmeasure: {interval: 0.01}\n"
          "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
          "output: {plots: false, particle_pieces: true}\n",

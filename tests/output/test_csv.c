@@ -67,7 +67,7 @@ static void headers_are_exact(void **state)
     expect("runup.csv", "time_s,line,x_m,y_m,z_m,front_m,apart_m\n");
     expect("reflections.csv",
            "time_s,set,from_s,harmonic,period_s,wavelength_m,incident_m,reflected_m,coefficient,misfit_m,"
-           "separation\n");
+           "separation,bound_incident_m,bound_reflected_m\n");
     expect("absorbers.csv", "time_s,body,offset_m,drift_m\n");
     expect("energy.csv", "time_s,kinetic_J,potential_J,mass_kg,momentum_x_kg_m_s,"
                          "momentum_y_kg_m_s,momentum_z_kg_m_s,bodies_J,viscosity_J,"
@@ -103,8 +103,8 @@ static void rows_are_flushed_at_once(void **state)
     const sb_runup_record runups[] = {{0, 0.1, {1, 2, 3}, 4, 0.5}};
     const sb_energy_record energies[] = {
         {0.10123, 5, 6.00000000001, 7, {8, 9, 10}, {11, -12, -13, -14, -15, 16, -17, 18, 19, 20, -21}, 1e-7}};
-    const sb_reflection_record splits[] = {{0, 2, 5, 10, 0.5, 3, 0.25, 0.125, 0.01, 0.75},
-                                           {0, 3, 5, 10, 0.2, 1, nan, nan, nan, 0}};
+    const sb_reflection_record splits[] = {{0, 2, 5, 10, 0.5, 3, 0.25, 0.125, 0.01, 0.75, 0.5, 0.0625},
+                                           {0, 3, 5, 10, 0.2, 1, nan, nan, nan, 0, nan, nan}};
     sb_water_record waters[] = {{0, 0.1, 0, 0.25, 1.5, -2, {{0, 0, 0}}}, {0, 0.1, 0, 0.75, nan, -2, {{0, 0, 0}}}};
     for (int j = 0; j < SB_RECORD_LAYERS; j++) {
         waters[0].velocity[j] = sb_vec(1 + j, -1 - j, 0.5);
@@ -127,7 +127,7 @@ static void rows_are_flushed_at_once(void **state)
     expect("absorbers.csv", "time_s,body,offset_m,drift_m\n0.1,reactor1,-0.25,0.125\n");
     text = text_of("reflections.csv");
     assert_string_equal(strchr(text, '\n') + 1,
-                        "10,array,5,2,0.5,3,0.25,0.125,0.5,0.01,0.75\n10,array,5,3,0.2,1,,,,,0\n");
+                        "10,array,5,2,0.5,3,0.25,0.125,0.5,0.01,0.75,0.5,0.0625\n10,array,5,3,0.2,1,,,,,0,,\n");
     sb_free(text);
     text = text_of("record.csv");
     assert_string_equal(

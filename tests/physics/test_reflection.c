@@ -105,6 +105,69 @@ static void bound_harmonics_show_as_misfit(void **state)
     assert_true(as_free.misfit > 1e-4);
 }
 
+/* Amplitudes of free and bound waves, incident and reflected, at phases of their own, by the surface itself. */
+static void four_waves(const double *x, size_t count, double free, double bound, const double amplitude[4],
+                       double *cosines, double *sines)
+{
+    for (size_t g = 0; g < count; g++) {
+        cosines[g] = sines[g] = 0;
+        for (int m = 0; m < 4; m++) {
+            const double k = m < 2 ? free : bound, phase = k * x[g] + 0.4 + 1.1 * m;
+            cosines[g] += amplitude[m] * cos(phase); /* a cos(kx - wt + p) = a cos(kx + p) cos wt + ... */
+            sines[g] += amplitude[m] * (m % 2 ? -sin(phase) : sin(phase));
+        }
+    }
+}
+
+/* Four and five gauges find free and bound waves of half the period, whatever their ratio. */
+static void free_and_bound_waves_are_told_apart(void **state)
+{
+    (void)state;
+    const double free = sb_wave_number(period / 2, depth, 9.81), bound = 2 * sb_wave_number(period, depth, 9.81);
+    const double cases[][4] = {{0.008, 0.003, 0.01, 0.002}, {0, 0, 0.01, 0}, {0.01, 0, 0, 0}, {0.001, 0.004, 0, 0.02}};
+    for (size_t c = 0; c < 4; c++)
+        for (size_t gauges = 4; gauges <= GAUGES; gauges++) {
+            double cosines[GAUGES], sines[GAUGES];
+            four_waves(places, gauges, free, bound, cases[c], cosines, sines);
+            const sb_split out = sb_split_bound_of(places, cosines, sines, gauges, free, bound);
+            assert_near(out.incident, cases[c][0], 1e-12);
+            assert_near(out.reflected, cases[c][1], 1e-12);
+            assert_near(out.bound_incident, cases[c][2], 1e-12);
+            assert_near(out.bound_reflected, cases[c][3], 1e-12);
+            assert_near(out.misfit, 0, 1e-12);
+        }
+}
+
+/* The separation bounds what errors of the gauges do: over all directions of an error of length e the worst amplitude
+   has e/sqrt(count s), which the singular vector attains. Three places, and waves of one speed, have none. */
+static void separation_of_four_waves_bounds_errors(void **state)
+{
+    (void)state;
+    const double free = sb_wave_number(period / 2, depth, 9.81), bound = 2 * sb_wave_number(period, depth, 9.81);
+    const double separation = sb_split_bound_separation(places, GAUGES, free, bound);
+    double worst = 0;
+    assert_true(separation > 0 && separation < 1);
+    for (uint64_t n = 0; n < 20000; n++) {
+        double cosines[GAUGES], sines[GAUGES], square = 0;
+        for (size_t g = 0; g < GAUGES; g++) {
+            cosines[g] = sb_random(3, 2 * (GAUGES * n + g)) - 0.5;
+            sines[g] = sb_random(3, 2 * (GAUGES * n + g) + 1) - 0.5;
+            square += cosines[g] * cosines[g] + sines[g] * sines[g];
+        }
+        const sb_split out = sb_split_bound_of(places, cosines, sines, GAUGES, free, bound);
+        const double all = out.incident * out.incident + out.reflected * out.reflected +
+                           out.bound_incident * out.bound_incident + out.bound_reflected * out.bound_reflected;
+        worst = fmax(worst, sqrt(all / square));
+    }
+    const double limit = 1 / sqrt(GAUGES * separation);
+    assert_true(worst <= limit * (1 + 1e-9) && worst > 0.9 * limit);
+    assert_near(sb_split_bound_separation(places, 3, free, bound), 0, 1e-9);
+    assert_near(sb_split_bound_separation(places, GAUGES, free, free), 0, 1e-9);
+    const double zeros[GAUGES] = {0};
+    assert_true(isnan(sb_split_bound_of(places, zeros, zeros, 3, free, bound).bound_incident));
+    assert_true(isnan(sb_split_bound_of(places, zeros, zeros, GAUGES, free, free).incident));
+}
+
 static void singular_places_are_detected(void **state)
 {
     (void)state;
@@ -128,6 +191,8 @@ int main(void)
         cmocka_unit_test(known_waves_are_found),
         cmocka_unit_test(noise_averages_out),
         cmocka_unit_test(bound_harmonics_show_as_misfit),
+        cmocka_unit_test(free_and_bound_waves_are_told_apart),
+        cmocka_unit_test(separation_of_four_waves_bounds_errors),
         cmocka_unit_test(singular_places_are_detected),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

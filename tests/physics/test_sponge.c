@@ -110,6 +110,31 @@ static void best_strength_has_no_better_neighbour(void **state)
         }
 }
 
+/* The loss on the way, summed in small parts with a group speed by finite differences of the dispersion relation. */
+static void viscosity_takes_its_share_per_second(void **state)
+{
+    (void)state;
+    for (int p = SB_SPONGE_LINEAR; p <= SB_SPONGE_CUBIC; p++)
+        for (double depth = 0.1; depth < 10; depth *= 3) {
+            enum { PARTS = 2000 };
+            const double omega = 2.732, length = 7, viscosity = 0.02,
+                         k = sb_wave_number(2 * M_PI / omega, depth, GRAVITY);
+            const double step = 1e-5 * k, above = sqrt(GRAVITY * (k + step) * tanh((k + step) * depth)),
+                         below = sqrt(GRAVITY * (k - step) * tanh((k - step) * depth));
+            const double group = (above - below) / (2 * step);
+            double left = 1;
+            for (int i = 0; i < 2 * PARTS; i++) {
+                const int at = i < PARTS ? i : 2 * PARTS - 1 - i;
+                const double here = viscosity * sb_sponge_share(p, (at + 0.5) / PARTS);
+                left *= exp(-2 * here * k * k * length / PARTS / group);
+            }
+            assert_near(sb_sponge_viscous_reflection(p, viscosity, omega, depth, GRAVITY, length), left, 1e-6);
+        }
+    /* The basin of Wen et al.: alpha 0.6, h 0.06 m, 10 sqrt(g d) of 0.5 m. */
+    assert_near(sb_sponge_viscosity(0.6, 0.06, 22.147, 3), 0.03986, 1e-5);
+    assert_near(sb_sponge_viscous_reflection(SB_SPONGE_QUADRATIC, 0, 2, 1, GRAVITY, 3), 1, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -119,6 +144,7 @@ int main(void)
         cmocka_unit_test(deep_waves_decay_by_their_wave_number),
         cmocka_unit_test(prediction_is_that_of_waves_in_time),
         cmocka_unit_test(best_strength_has_no_better_neighbour),
+        cmocka_unit_test(viscosity_takes_its_share_per_second),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

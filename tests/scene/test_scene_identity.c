@@ -85,8 +85,31 @@ static void test_keys_of_the_identity(void **state)
     sb_free(first);
 }
 
+/* Keys that were added later are in the identity only if they change something. */
+static void test_later_keys(void **state)
+{
+    (void)state;
+#define SETS(more)                                                                                                     \
+    "{gauges: [{name: a, x: 0.3, y: 0.5}, {name: b, x: 0.4, y: 0.5}, {name: c, x: 0.6, y: 0.5}, {name: d, x: 0.9, y: " \
+    "0.5}], reflections: [{name: r, gauges: [a, b, c, d], period: 1, depth: 0.5, harmonics: 2" more "}]}"
+    char *without = identity_of("1", MOTION, "measure", SETS("")),
+         *off = identity_of("1", MOTION, "measure", SETS(", bound: false")),
+         *on = identity_of("1", MOTION, "measure", SETS(", bound: true")),
+         *sponge = identity_of("1", MOTION, "sponges",
+                               "[{name: s, kind: damping, side: x_max, length: 0.5, period: 1, depth: 0.5}]");
+    assert_string_equal(without, off);
+    assert_null(strstr(without, "bound"));
+    assert_non_null(strstr(on, "bound: true"));
+    assert_non_null(strstr(sponge, "profile: quadratic"));
+    assert_null(strstr(sponge, "damping"));
+    sb_free(without);
+    sb_free(off);
+    sb_free(on);
+    sb_free(sponge);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_keys_of_the_identity)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_keys_of_the_identity), cmocka_unit_test(test_later_keys)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -122,7 +122,7 @@ static void check_defaults(const sb_request *request)
     size_t count = 1;
     sb_scene scene, plain;
     sb_error error = {0};
-    if (request->paper) return;
+    if (request->preset) return;
     assert_int_equal(sb_path_join(file, SB_SOURCE_DIR "/assets/validation", request->of->scene, NULL), SB_OK);
     for (const char *const *more = request->plan->settings; more && *more; more++, count++) {
         const char *equals = strchr(*more, '=');
@@ -160,12 +160,35 @@ static void test_cases_are_valid(void **state)
                 if (sb_request_hash(&requests[r], SB_SOURCE_DIR "/assets/validation", &hash, &error) != SB_OK)
                     fail_msg("%s: %s", of->name, error.text);
                 check_defaults(&requests[r]);
-                judged += requests[r].plan->judged && !requests[r].paper && requests[r].seed == 1;
+                judged += requests[r].plan->judged && !requests[r].preset && requests[r].seed == 1;
             }
             if (judged != 1) fail_msg("%s: %zu judged spacings, expected 1", of->name, judged);
             sb_free(requests);
         }
     }
+}
+
+/* The default comes first, then each other preset at the spacings that ask for it, then seeds; each has its scene. */
+static void test_presets_run_beside_the_default(void **state)
+{
+    (void)state;
+    static const sb_case of = {.scene = "column/column.yaml",
+                               .full = {{.resolution = 0.02, .paper = true, .wen = true},
+                                        {.resolution = 0.01, .wen = true, .seeds = 2, .judged = true}}};
+    static const char *const presets[] = {"default", "default", "paper", "wen", "wen", "default"};
+    static const int seeds[] = {1, 1, 1, 1, 1, 2};
+    sb_request *requests = NULL;
+    size_t count = 0;
+    uint64_t hash[6];
+    assert_int_equal(sb_case_requests(&of, false, &requests, &count, NULL), SB_OK);
+    assert_int_equal(count, 6);
+    for (size_t r = 0; r < count; r++) {
+        assert_string_equal(sb_request_preset(&requests[r]), presets[r]);
+        assert_int_equal(requests[r].seed, seeds[r]);
+        assert_int_equal(sb_request_hash(&requests[r], SB_SOURCE_DIR "/assets/validation", &hash[r], NULL), SB_OK);
+        for (size_t k = 0; k < r; k++) assert_true(hash[k] != hash[r]);
+    }
+    sb_free(requests);
 }
 
 static void test_hash_depends_on_request(void **state)
@@ -177,7 +200,7 @@ static void test_hash_depends_on_request(void **state)
     sb_request base = {.of = sb_cases[0], .plan = &plan, .seed = 1}, changed[4];
     for (int i = 0; i < 4; i++) changed[i] = base;
     changed[0].seed = 2;
-    changed[1].paper = true;
+    changed[1].preset = "paper";
     changed[2].plan = &other;
     snprintf(changed[3].change, sizeof changed[3].change, "numerics.cfl=0.3");
     uint64_t first = 0, again = 0;
@@ -260,6 +283,7 @@ int main(void)
         cmocka_unit_test(test_missing_column_is_reported_at_end),
         cmocka_unit_test(test_reference_tables_are_valid),
         cmocka_unit_test(test_cases_are_valid),
+        cmocka_unit_test(test_presets_run_beside_the_default),
         cmocka_unit_test(test_hash_depends_on_request),
         cmocka_unit_test(test_written_scene_has_same_defaults_hash),
         cmocka_unit_test(test_changed_defaults_stay_within_bounds),

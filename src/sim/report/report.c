@@ -34,13 +34,13 @@ void sb_report_skipped(sb_sim *sim)
     enum { CORRECTION_PASSES = 3 }; /* moments, their mean, the force */
     const sb_numerics *n = &sim->scene->numerics;
     size_t s = 0;
-    if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0) && !sim->needs.turbulence)
+    if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0) && !sim->needs.eddy)
         skip(sim, &s, "viscosity: both coefficients are 0, no pass over particle pairs", 1, 0);
     if (!sim->needs.stress_correction)
         skip(sim, &s, "stress correction: off, no passes over particle pairs for it", CORRECTION_PASSES, 0);
     if (!sim->needs.turbulence)
         skip(sim, &s, "turbulence: none, no strain rates and no memory for eddy viscosities", 1,
-             sb_work_cost(&sim->needs, "eddy"));
+             sim->needs.eddy ? 0 : sb_work_cost(&sim->needs, "eddy"));
     if (!sim->needs.implicit) skip(sim, &s, "pressure solve: none, the equation of state gives the pressure", 0, 0);
     if (!sim->needs.density_correction)
         skip(sim, &s, "density correction: off (density: summed), no memory for it", 0,

@@ -33,7 +33,7 @@ const sb_work_view sb_work_views[] = {
     {WORK(stress), FROM(STRESS, CORRECTED), .unit = "Pa m^6/kg^2", .ghosts = true,
      .needed = SB_NEEDS(stress_correction)},
     {WORK(corrected), FROM(CORRECTED, CORRECTED), .unit = "m/s", .needed = SB_NEEDS(stress_correction)},
-    {WORK(eddy), FROM(TURBULENCE, FORCES), .unit = "m^2/s", .ghosts = true, .needed = SB_NEEDS(turbulence)},
+    {WORK(eddy), FROM(TURBULENCE, FORCES), .unit = "m^2/s", .ghosts = true, .needed = SB_NEEDS(eddy)},
     {WORK(wall_drag), FROM(FORCES, IMPULSE), .unit = "m/s^2", .needed = SB_NEEDS(wall_drag)},
     {WORK(pull), FROM(FORCES, MOVE), .unit = "m/s^2", .needed = SB_NEEDS(surface_tension)},
     {WORK(predicted), FROM(FORCES, MOVE), .unit = "m/s", .ghosts = true, .needed = SB_ALWAYS},

@@ -84,7 +84,7 @@ typedef struct sb_work {
     size_t node_capacity;
     sb_f4 *corrected; /* m/s, velocity after the stress correction */
 
-    float *eddy;      /* m^2/s, nu_t at the step's start; NULL without a turbulence model */
+    float *eddy;      /* m^2/s, nu_t at the step's start, and of viscous sponges; NULL without both */
     sb_f4 *wall_drag; /* m/s^2, by friction and shear of walls, for particles beside walls; NULL without drag */
     sb_f4 *pull;      /* m/s^2, by surface tension (sim/terms/surface_tension.h); NULL without it */
     sb_f4 *predicted; /* m/s, v*: the velocity before the pressure */

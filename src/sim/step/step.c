@@ -50,6 +50,8 @@ static const stage stages[] = {
     {"stress_correction", SB_PHASE_STRAIN, sb_stage_stress_correction, SB_NEEDS(stress_correction), IMPLICIT},
     /* eddy viscosity from the strain rate */
     {"turbulence", SB_PHASE_TURBULENCE, sb_stage_turbulence, SB_NEEDS(turbulence), BOTH},
+    /* adds the viscosity of sponges */
+    {"viscous_sponge", SB_PHASE_TURBULENCE, sb_stage_viscous_sponge, SB_NEEDS(viscous_sponge), BOTH},
     /* v* = v + dt (g + viscosity + friction) */
     {"forces", SB_PHASE_FORCES, sb_stage_forces, SB_ALWAYS, BOTH},
     /* v* += dt (surface tension) */

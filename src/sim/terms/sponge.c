@@ -6,17 +6,26 @@
 
 #include <math.h>
 
-/* Share of the velocity that a particle loses in this step. */
-static float lost_share(const sb_sim *sim, sb_record at)
+/* Sum over sponges of their greatest strength (or alpha, if viscous) times its share at a place. */
+static double sum_at(const sb_sim *sim, sb_record at, bool viscous)
 {
     const double x[] = {sim->space.origin.x + at[0] * sim->space.quantum,
                         sim->space.origin.y + at[1] * sim->space.quantum};
-    double strength = 0;
+    double sum = 0;
     for (size_t s = 0; s < sim->scene->sponge_count; s++) {
         const sb_sponge *sponge = &sim->scene->sponges[s];
+        if ((sponge->kind == SB_SPONGE_VISCOUS) != viscous) continue;
         const double beyond = (x[sponge->side / 2] - sponge->end) * (sponge->side % 2 ? 1 : -1);
-        strength += sponge->strength * sb_sponge_share(sponge->profile, 1 + beyond / sponge->length);
+        const double most = viscous ? sponge->alpha : sponge->strength;
+        sum += most * sb_sponge_share(sponge->profile, 1 + beyond / sponge->length);
     }
+    return sum;
+}
+
+/* Share of the velocity that a particle loses in this step. */
+static float lost_share(const sb_sim *sim, sb_record at)
+{
+    const double strength = sum_at(sim, at, false);
     const double part = strength * sim->state.time_step;
     return (float)(part / (1 + part));
 }
@@ -37,6 +46,22 @@ sb_status sb_stage_sponge(sb_sim *sim, sb_error *error)
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) sim->work.predicted[i] += change_of(sim, i);
     sb_refresh(sim, sim->work.predicted);
+    return SB_OK;
+}
+
+sb_status sb_stage_viscous_sponge(sb_sim *sim, sb_error *error)
+{
+    (void)error;
+    const sb_constants *c = &sim->constant;
+    const double one = sb_sponge_viscosity(1, (double)c->support, (double)c->sound_speed, c->dimension);
+    const size_t n = sim->state.n;
+    const bool turbulent = sim->needs.turbulence;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) {
+        const float own = (float)(one * sum_at(sim, sim->state.position[i], true));
+        sim->work.eddy[i] = turbulent ? sim->work.eddy[i] + own : own;
+    }
+    sb_refresh_values(sim, sim->work.eddy);
     return SB_OK;
 }
 

@@ -1,4 +1,4 @@
-/* Sponges: zones in which water is slowed down, physics/sponge.h. */
+/* Sponges: zones in which water is slowed down or has a viscosity, physics/sponge.h. */
 #ifndef SB_SIM_SPONGE_H
 #define SB_SIM_SPONGE_H
 
@@ -9,5 +9,9 @@
 sb_status sb_stage_sponge(sb_sim *sim, sb_error *error);
 /* Sums the work and the momentum of that into sim->work, before particles move. */
 sb_status sb_stage_drained(sb_sim *sim, sb_error *error);
+
+/* After the turbulence: adds the viscosity of sponges to sim->work.eddy, which the stage forces adds to the physical
+   viscosity. [W] gives it to approaching particles alone; here it has the same mean, and acts on all. */
+sb_status sb_stage_viscous_sponge(sb_sim *sim, sb_error *error);
 
 #endif

@@ -116,6 +116,77 @@ static void bits_do_not_depend_on_threads(void **state)
     tank_free(&t);
 }
 
+/* Explicit steps with a viscous sponge, with and without turbulence. */
+static sb_sim *make_viscous(tank *t, sb_turbulence turbulence, double alpha)
+{
+    tank_make(t, 2, 0.05, sb_vec(2, 1, 1.5), 0.8, 0.7, 0);
+    t->form.particles = false;
+    tank_use(t, SB_PRESET_WEN);
+    t->scene.numerics.walls = SB_WALLS_IMAGES;
+    t->scene.numerics.kernel_correction = SB_CORRECTION_NONE;
+    t->scene.numerics.turbulence = turbulence;
+    t->scene.sponges = sb_alloc(1, sizeof *t->scene.sponges);
+    assert_non_null(t->scene.sponges);
+    t->scene.sponges[0] = beach;
+    t->scene.sponges[0].kind = SB_SPONGE_VISCOUS;
+    t->scene.sponges[0].alpha = alpha;
+    t->scene.sponge_count = 1;
+    sb_sim *sim = tank_sim(t);
+    assert_non_null(sim);
+    return sim;
+}
+
+/* Each particle has alpha h c_s/16 times the share at its place, beside its eddy viscosity. */
+static void viscosity_is_added_by_place(void **state)
+{
+    (void)state;
+    tank with, without;
+    sb_sim *a = make_viscous(&with, SB_TURBULENCE_SPS, 0.5), *b = make_viscous(&without, SB_TURBULENCE_SPS, 0);
+    assert_int_equal(tank_steps(a, 1), 0);
+    assert_int_equal(tank_steps(b, 1), 0);
+    const double most = 0.5 * (double)a->constant.support * (double)a->constant.sound_speed / 16;
+    size_t within = 0;
+    for (size_t i = 0; i < a->state.n; i++) a->work.eddy[i] = b->work.eddy[i] = 0.25f * (float)(i % 5);
+    assert_int_equal(sb_stage_viscous_sponge(a, NULL), SB_OK);
+    assert_int_equal(sb_stage_viscous_sponge(b, NULL), SB_OK);
+    for (size_t i = 0; i < a->state.n; i++) {
+        const double x = sb_space_position(&a->space, a->state.position[i]).x, s = fmin(fmax((x - 0.6) / 1.2, 0), 1);
+        assert_near((double)a->work.eddy[i] - 0.25 * (double)(i % 5), most * s * s, 1e-6 * most);
+        assert_near((double)b->work.eddy[i], 0.25 * (double)(i % 5), 0);
+        within += s > 0;
+    }
+    assert_true(within > 0 && within < a->state.n);
+    sb_sim_destroy(a);
+    sb_sim_destroy(b);
+    tank_free(&with);
+    tank_free(&without);
+}
+
+/* Its work is part of the ledger's viscosity; water loses more with it, and no momentum but to walls. */
+static void viscous_sponge_is_accounted_for(void **state)
+{
+    (void)state;
+    double lost[2];
+    for (int on = 0; on < 2; on++) {
+        tank t;
+        sb_sim *sim = make_viscous(&t, SB_TURBULENCE_NONE, on ? 0.6 : 0.001);
+        double imbalance = 0;
+        const double start = energy_of(sim);
+        while (sb_sim_report(sim)->time < 0.6) {
+            assert_int_equal(tank_steps(sim, 1), 0);
+            imbalance = fmax(imbalance, sb_sim_report(sim)->momentum_imbalance);
+        }
+        assert_true(tank_has_stage(sim, "viscous_sponge") && !tank_has_stage(sim, "sponge"));
+        lost[on] = -sb_sim_ledger(sim)->viscosity / start;
+        printf("alpha %g: viscosity took %g of the energy, momentum %g\n", t.scene.sponges[0].alpha, lost[on],
+               imbalance);
+        assert_true(imbalance < 1e-5 && sb_sim_ledger(sim)->sponge == 0);
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
+    assert_true(lost[1] > lost[0] + 0.005);
+}
+
 static void off_it_has_no_stage(void **state)
 {
     (void)state;
@@ -123,7 +194,7 @@ static void off_it_has_no_stage(void **state)
     make(&t, false);
     sb_sim *sim = tank_sim(&t);
     assert_int_equal(tank_steps(sim, 2), 0);
-    assert_false(tank_has_stage(sim, "sponge"));
+    assert_false(tank_has_stage(sim, "sponge") || tank_has_stage(sim, "viscous_sponge") || sim->work.eddy);
     assert_near(sb_sim_ledger(sim)->sponge, 0, 0);
     sb_sim_destroy(sim);
     tank_free(&t);
@@ -132,10 +203,9 @@ static void off_it_has_no_stage(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sponge_is_accounted_for),
-        cmocka_unit_test(each_particle_loses_its_share),
-        cmocka_unit_test(bits_do_not_depend_on_threads),
-        cmocka_unit_test(off_it_has_no_stage),
+        cmocka_unit_test(sponge_is_accounted_for),         cmocka_unit_test(each_particle_loses_its_share),
+        cmocka_unit_test(bits_do_not_depend_on_threads),   cmocka_unit_test(viscosity_is_added_by_place),
+        cmocka_unit_test(viscous_sponge_is_accounted_for), cmocka_unit_test(off_it_has_no_stage),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,7 +12,7 @@
 typedef struct sb_plan {
     double resolution;           /* m; of a grid, the edge of its cells; 0 ends the list */
     bool judged;                 /* figures are judged at this spacing, by the worst seed */
-    bool paper;                  /* the preset `paper` runs here too, with seed 1 */
+    bool paper, wen;             /* the preset of that name runs here too, with seed 1 */
     int seeds;                   /* numerics.seed = 1..seeds; 0 means 1 */
     const char *const *settings; /* more KEY=VALUE for `shorebreak run --set`, ended by NULL; NULL: none */
     const char *variant;         /* what these settings make of the scene, "without absorption"; NULL: nothing else */
@@ -31,7 +31,7 @@ typedef struct sb_case_run {
     const char *assets;    /* assets/validation of the source tree */
     const sb_scene *scene; /* as it ran, with every default filled in */
     double resolution;     /* m */
-    const char *preset;    /* "default" or "paper" */
+    const char *preset;    /* "default", "paper" or "wen" */
     int seed;
     bool quick, judged;
     double wall;       /* s of run time */
@@ -57,7 +57,8 @@ sb_curve *sb_reference_curve(const sb_case_run *run, const char *table, const ch
 /* Frees the curves that were made. The first failure, which is then forgotten. */
 sb_status sb_run_close(const sb_case_run *run, sb_error *error);
 
-/* Adds a run's curve to the plot's panel, in the style of a judged run, another seed, `paper` or another spacing. */
+/* Adds a run's curve to the plot's panel, in the style of a judged run, another seed, another preset or another
+ * spacing. */
 void sb_plot_run(sb_plot *plot, const sb_case_run *run, const sb_curve *curve);
 /* Adds a reference curve through `count` points. */
 void sb_plot_points(sb_plot *plot, const char *label, size_t count, double *x, double *y);
@@ -81,7 +82,8 @@ typedef struct sb_case {
        preset with seed 1, coarse to fine. of_each: their figures from evaluate. NULL: none. */
     void (*compare)(const sb_case_run *runs, const sb_figures *of_each, size_t count, sb_figures *figures);
 
-    /* Draws the finished runs. They are sorted from coarse to fine, default before paper, seed 1 before others. */
+    /* Draws the finished runs. They are sorted from coarse to fine, default before `paper` and `wen`, seed 1 before
+     * others. */
     void (*plot)(const sb_case_run *runs, size_t count, sb_plot *plot);
 } sb_case;
 

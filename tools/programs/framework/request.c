@@ -8,6 +8,11 @@
 #include <stdio.h>
 #include <string.h>
 
+const char *sb_request_preset(const sb_request *request)
+{
+    return request->preset ? request->preset : "default";
+}
+
 void sb_request_settings(const sb_request *request, sb_settings *settings)
 {
     *settings = (sb_settings){0};
@@ -28,9 +33,9 @@ void sb_request_label(const sb_request *request, bool with_case, char label[96])
     char seed[32] = "";
     if (request->seed != 1) snprintf(seed, sizeof seed, ", seed %d", request->seed);
     const char *variant = request->plan->variant ? request->plan->variant : "";
-    snprintf(label, 96, "%s%s%.6g m%s%s%s%s%s%s", with_case ? request->of->name : "", with_case ? ", " : "",
-             request->plan->resolution, variant[0] ? ", " : "", variant, request->paper ? ", paper" : "", seed,
-             request->change[0] ? ", " : "", request->change);
+    snprintf(label, 96, "%s%s%.6g m%s%s%s%s%s%s%s", with_case ? request->of->name : "", with_case ? ", " : "",
+             request->plan->resolution, variant[0] ? ", " : "", variant, request->preset ? ", " : "",
+             request->preset ? request->preset : "", seed, request->change[0] ? ", " : "", request->change);
 }
 
 sb_status sb_settings_scene(const char *path, const char *preset, const char *const *settings, size_t count,
@@ -53,7 +58,7 @@ static sb_status read_scene(const sb_request *request, const char *path, sb_scen
                             sb_error *error)
 {
     sb_settings settings;
-    const char *preset = request->paper ? "paper" : "default";
+    const char *preset = sb_request_preset(request);
     sb_request_settings(request, &settings);
     *hash = sb_hash(*hash, preset, strlen(preset));
     for (size_t i = 0; i < settings.count; i++) *hash = sb_hash(*hash, settings.list[i], strlen(settings.list[i]));

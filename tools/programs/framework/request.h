@@ -11,7 +11,8 @@ enum { SB_SETTINGS_MAX = 32 };
 typedef struct sb_request {
     const sb_case *of;
     const sb_plan *plan;
-    bool paper, quick;
+    const char *preset; /* "paper" or "wen", beside the judged runs; NULL: the default preset */
+    bool quick;
     int seed;
     char change[64]; /* one more KEY=VALUE, the change of a sensitivity run; "": none */
 } sb_request;
@@ -22,6 +23,8 @@ typedef struct sb_settings {
     const char *list[SB_SETTINGS_MAX];
     size_t count;
 } sb_settings;
+/* "default", "paper" or "wen". */
+const char *sb_request_preset(const sb_request *request);
 void sb_request_settings(const sb_request *request, sb_settings *settings);
 /* Reads a scene with at most SB_SETTINGS_MAX settings. preset: NULL: that of the scene. */
 sb_status sb_settings_scene(const char *path, const char *preset, const char *const *settings, size_t count,

@@ -76,7 +76,7 @@ sb_status sb_run_close(const sb_case_run *run, sb_error *error)
 void sb_plot_run(sb_plot *plot, const sb_case_run *run, const sb_curve *curve)
 {
     sb_plot_style style = SB_PLOT_LINE;
-    if (strcmp(run->preset, "paper") == 0)
+    if (strcmp(run->preset, "default") != 0)
         style = SB_PLOT_ASIDE;
     else if (run->seed != 1)
         style = SB_PLOT_SEED;

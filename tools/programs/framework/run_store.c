@@ -22,7 +22,7 @@ static sb_status group_folder(const sb_store *store, const sb_request *request, 
     sb_status status = sb_request_hash(request, store->assets, &hash, error);
     if (status != SB_OK) return status;
     int length = snprintf(folder, SB_PATH_MAX, "%s/runs/%s/%.6g-%s-%d-%016" PRIx64, store->out, request->of->name,
-                          request->plan->resolution, request->paper ? "paper" : "default", request->seed, hash);
+                          request->plan->resolution, sb_request_preset(request), request->seed, hash);
     return length < SB_PATH_MAX - 32 ? SB_OK : sb_fail(error, SB_BAD_INPUT, "%.400s: the path is too long", store->out);
 }
 

@@ -47,7 +47,7 @@ static sb_status begin(void *user, size_t i, sb_process *process, sb_error *erro
     sb_process_shorebreak(process, l->store->program, l->scene, folder);
     sb_process_add(process, request->of->grid ? "--overwrite" : "--resume", NULL);
     sb_process_set(process, l->settings.list, l->settings.count);
-    sb_process_add(process, "--preset", request->paper ? "paper" : "default", NULL);
+    sb_process_add(process, "--preset", sb_request_preset(request), NULL);
     if (l->store->options->jobs > 1) sb_process_add(process, "--threads", "1", NULL);
     return SB_OK;
 }
@@ -93,7 +93,7 @@ static void complete(const sb_store *store, sb_result *r)
     r->run.load = sb_record_number(r->run.folder, "load");
     view->of = r->request.of;
     view->assets = store->assets;
-    view->preset = r->request.paper ? "paper" : "default";
+    view->preset = sb_request_preset(&r->request);
     view->seed = r->request.seed;
     view->quick = r->request.quick;
     view->judged = r->request.plan->judged;

@@ -47,7 +47,8 @@ static void add(sb_paper_studies *s, const sb_published *like, bool paper)
         row->settings[used++] = row->texts[2];
     }
     row->plan = (sb_plan){.resolution = row->spacing, .settings = row->settings};
-    s->trials[s->count++].request = (sb_request){.of = &plant, .plan = &row->plan, .paper = paper, .seed = 1};
+    s->trials[s->count++].request =
+        (sb_request){.of = &plant, .plan = &row->plan, .preset = paper ? "paper" : NULL, .seed = 1};
 }
 
 void sb_paper_begin(sb_paper_studies *s, const sb_store *store, double scale)

@@ -55,8 +55,8 @@ static sb_status begin(subject *s, const sb_study_options *o, sb_error *error)
     for (size_t i = 0; i < s->count; i++) {
         sb_plan *plan = &s->plans[i / (size_t)o->seeds];
         *plan = (sb_plan){.resolution = o->spacings[i / (size_t)o->seeds], .settings = s->settings};
-        s->runs[i].request =
-            (sb_request){.of = &s->of, .plan = plan, .paper = paper, .seed = 1 + (int)(i % (size_t)o->seeds)};
+        s->runs[i].request = (sb_request){
+            .of = &s->of, .plan = plan, .preset = paper ? "paper" : NULL, .seed = 1 + (int)(i % (size_t)o->seeds)};
     }
     return SB_OK;
 }

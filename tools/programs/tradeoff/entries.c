@@ -53,8 +53,11 @@ static void add(sb_contest *c, const sb_choice *choice, double spacing, const sb
     e->plan = (sb_plan){.resolution = spacing, .settings = e->settings};
     for (int seed = 1; seed <= seeds; seed++) {
         sb_request *request = &c->trials[c->trial_count++].request;
-        *request = (sb_request){
-            .of = of, .plan = &e->plan, .paper = choice && choice->paper, .quick = selection->quick, .seed = seed};
+        *request = (sb_request){.of = of,
+                                .plan = &e->plan,
+                                .preset = choice && choice->paper ? "paper" : NULL,
+                                .quick = selection->quick,
+                                .seed = seed};
         snprintf(request->change, sizeof request->change, "%s", e->change);
     }
 }

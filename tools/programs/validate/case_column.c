@@ -141,7 +141,7 @@ const sb_case sb_case_column = {
         "and are omitted. The velocity of\nthe bore is compared from its arrival, too.",
     .scene = "column/column.yaml",
     .headline = "peak force, digitisation a",
-    .full = {{.resolution = 0.02, .paper = true},
+    .full = {{.resolution = 0.02, .paper = true, .wen = true},
              {.resolution = 0.01, .paper = true, .seeds = 3},
              {.resolution = 0.005, .judged = true, .seeds = 3}},
     .quick = {{.resolution = 0.02, .judged = true}},

@@ -14,7 +14,7 @@ enum { TARGETS_MISSED = 4 }; /* exit status */
 /* Runs are made in three turns, so that every case has first results early. */
 static int turn_of(const sb_request *request)
 {
-    return request->seed > 1 ? 2 : request->paper ? 1 : 0;
+    return request->seed > 1 ? 2 : request->preset ? 1 : 0;
 }
 
 /* Whether the command line excludes this run. */

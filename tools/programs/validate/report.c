@@ -75,10 +75,11 @@ static void put_head(FILE *out, const sb_report *report)
         limited += l;
         passed += p;
     }
-    fprintf(out,
-            "# Validation%s\n\nMade by `tools/validate`. docs/validation.md explains how cases run and how figures are "
-            "judged.\nAll cases use the same defaults. Columns marked `paper` show the preset of that name.\n\n",
-            report->store->options->quick ? ", quick forms" : "");
+    fprintf(
+        out,
+        "# Validation%s\n\nMade by `tools/validate`. docs/validation.md explains how cases run and how figures are "
+        "judged.\nAll cases use the same defaults. Columns marked `paper` or `wen` show the preset of that name.\n\n",
+        report->store->options->quick ? ", quick forms" : "");
     fprintf(out, "- command: `%s`\n", report->store->options->command);
     put_machines(out, report);
     put_commits(out, report);

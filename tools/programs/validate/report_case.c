@@ -139,9 +139,9 @@ static void put_figures(FILE *out, const sb_case_results *results, const sb_resu
     for (size_t i = 0; i < results->count; i++) {
         const sb_request *request = &results->runs[i].request;
         if (!has_column(&results->runs[i])) continue;
-        snprintf(text, sizeof text, "%.6g m%s%s%s%s", request->plan->resolution, request->plan->variant ? ", " : "",
-                 request->plan->variant ? request->plan->variant : "", request->paper ? ", paper" : "",
-                 request->plan->judged && !request->paper ? " (judged)" : "");
+        snprintf(text, sizeof text, "%.6g m%s%s%s%s%s", request->plan->resolution, request->plan->variant ? ", " : "",
+                 request->plan->variant ? request->plan->variant : "", request->preset ? ", " : "",
+                 request->preset ? request->preset : "", request->plan->judged && !request->preset ? " (judged)" : "");
         sb_put_cell(out, text);
         columns++;
     }
@@ -207,7 +207,7 @@ static void put_runs(FILE *out, const sb_case_results *results)
         const sb_result *r = &results->runs[i];
         const char *variant = r->request.plan->variant;
         fprintf(out, "| %.6g%s%s | %s | %d |", r->request.plan->resolution, variant ? ", " : "", variant ? variant : "",
-                r->request.paper ? "paper" : "default", r->request.seed);
+                sb_request_preset(&r->request), r->request.seed);
         if (r->state == SB_RESULT_DONE)
             fprintf(out, " %zu | %zu | %.1f | %.1f | %s | %s%s |\n", r->run.view.particles, r->run.view.steps,
                     r->run.view.iterations, r->run.view.wall, threads(r, text), r->run.commit,

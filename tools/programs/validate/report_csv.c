@@ -34,8 +34,8 @@ static void put_run(FILE *out, const sb_result *r)
 {
     for (size_t i = 0; i < r->figures.count; i++) {
         fprintf(out, "%s,%.6g,%s,%d,%s,", r->request.of->name, r->request.plan->resolution,
-                r->request.paper ? "paper" : "default", r->request.seed,
-                r->request.plan->judged && !r->request.paper ? "yes" : "no");
+                sb_request_preset(&r->request), r->request.seed,
+                r->request.plan->judged && !r->request.preset ? "yes" : "no");
         put_figure(out, &r->figures.rows[i]);
         fprintf(out, "%zu,%zu,%.2f,%.1f,%s,%s,%016" PRIx64 ",", r->run.view.particles, r->run.view.steps,
                 r->run.view.iterations, r->run.view.wall, r->run.commit, r->request_hash, r->defaults_hash);

@@ -10,9 +10,9 @@
 
 /* Adds a request to a list with room for it. */
 static void add_request(sb_request *requests, size_t *count, const sb_case *of, const sb_plan *plan, bool quick,
-                        bool paper, int seed)
+                        const char *preset, int seed)
 {
-    requests[(*count)++] = (sb_request){.of = of, .plan = plan, .quick = quick, .paper = paper, .seed = seed};
+    requests[(*count)++] = (sb_request){.of = of, .plan = plan, .quick = quick, .preset = preset, .seed = seed};
 }
 
 sb_status sb_case_requests(const sb_case *of, bool quick, sb_request **requests, size_t *count, sb_error *error)
@@ -20,14 +20,16 @@ sb_status sb_case_requests(const sb_case *of, bool quick, sb_request **requests,
     const sb_plan *plans = quick ? of->quick : of->full;
     size_t room = 0, n = 0;
     for (const sb_plan *plan = plans; plan->resolution > 0; plan++)
-        room += 1 + (size_t)plan->paper + (size_t)(plan->seeds > 1 ? plan->seeds - 1 : 0);
+        room += 1 + (size_t)plan->paper + (size_t)plan->wen + (size_t)(plan->seeds > 1 ? plan->seeds - 1 : 0);
     sb_request *made = sb_alloc(room, sizeof *made);
     if (!made) return sb_fail_memory(error, "runs");
-    for (const sb_plan *plan = plans; plan->resolution > 0; plan++) add_request(made, &n, of, plan, quick, false, 1);
+    for (const sb_plan *plan = plans; plan->resolution > 0; plan++) add_request(made, &n, of, plan, quick, NULL, 1);
     for (const sb_plan *plan = plans; plan->resolution > 0; plan++)
-        if (plan->paper) add_request(made, &n, of, plan, quick, true, 1);
+        if (plan->paper) add_request(made, &n, of, plan, quick, "paper", 1);
     for (const sb_plan *plan = plans; plan->resolution > 0; plan++)
-        for (int seed = 2; seed <= plan->seeds; seed++) add_request(made, &n, of, plan, quick, false, seed);
+        if (plan->wen) add_request(made, &n, of, plan, quick, "wen", 1);
+    for (const sb_plan *plan = plans; plan->resolution > 0; plan++)
+        for (int seed = 2; seed <= plan->seeds; seed++) add_request(made, &n, of, plan, quick, NULL, seed);
     *requests = made;
     *count = n;
     return SB_OK;
@@ -45,7 +47,7 @@ static bool several_builds(const sb_case_results *results, bool kept)
     const sb_result *first = NULL;
     for (size_t i = 0; i < results->count; i++) {
         const sb_result *r = &results->runs[i];
-        if (r->state != SB_RESULT_DONE || r->kept != kept || r->request.paper || r->request.seed != 1) continue;
+        if (r->state != SB_RESULT_DONE || r->kept != kept || r->request.preset || r->request.seed != 1) continue;
         if (first && strcmp(r->run.build, first->run.build) != 0) return true;
         if (!first) first = r;
     }
@@ -57,7 +59,7 @@ static void compare_runs(sb_case_results *results, sb_case_run *runs, sb_figures
     size_t count = 0;
     for (size_t i = 0; i < results->count; i++) {
         const sb_result *r = &results->runs[i];
-        if (!has_files(r) || r->request.paper || r->request.seed != 1) continue;
+        if (!has_files(r) || r->request.preset || r->request.seed != 1) continue;
         runs[count] = r->run.view;
         figures[count++] = r->figures;
     }
@@ -115,7 +117,7 @@ const sb_result *sb_results_judged(const sb_case_results *results)
 {
     for (size_t i = 0; i < results->count; i++) {
         const sb_result *r = &results->runs[i];
-        if (r->request.plan->judged && !r->request.paper && r->request.seed == 1 && r->state == SB_RESULT_DONE)
+        if (r->request.plan->judged && !r->request.preset && r->request.seed == 1 && r->state == SB_RESULT_DONE)
             return r;
     }
     return NULL;
@@ -126,7 +128,7 @@ const sb_result *sb_results_finest(const sb_case_results *results)
     const sb_result *finest = NULL;
     for (size_t i = 0; i < results->count; i++) {
         const sb_result *r = &results->runs[i];
-        if (r->state == SB_RESULT_DONE && !r->request.paper && r->request.seed == 1) finest = r;
+        if (r->state == SB_RESULT_DONE && !r->request.preset && r->request.seed == 1) finest = r;
     }
     return finest;
 }
@@ -140,7 +142,7 @@ static double size_of(const sb_figure *figure, double error)
 /* Whether r differs from `first` in the seed only, or is `first`. */
 static bool is_seed_of(const sb_result *r, const sb_result *first)
 {
-    return r->request.plan == first->request.plan && !r->request.paper && r->state == SB_RESULT_DONE &&
+    return r->request.plan == first->request.plan && !r->request.preset && r->state == SB_RESULT_DONE &&
            strcmp(r->run.build, first->run.build) == 0;
 }
 
@@ -185,7 +187,7 @@ sb_seed_spread sb_results_spread(const sb_case_results *results, const char *qua
     sb_seed_spread finest = {.value = (double)NAN};
     for (size_t k = 0; k < results->count; k++) {
         const sb_result *first = &results->runs[k];
-        if (first->request.seed != 1 || first->request.paper || first->state != SB_RESULT_DONE) continue;
+        if (first->request.seed != 1 || first->request.preset || first->state != SB_RESULT_DONE) continue;
         const sb_seed_spread here = spread_of(results, first, quantity);
         if (isnan(here.value)) continue;
         finest = here;

@@ -4,7 +4,8 @@
 
 #include "runs.h"
 
-/* Runs in the order of their requests: the default preset from coarse to fine with seed 1, `paper`, other seeds. */
+/* Runs in the order of their requests: the default preset from coarse to fine with seed 1, `paper`, `wen`, other seeds.
+ */
 typedef struct sb_case_results {
     const sb_case *of;
     size_t count;
