@@ -30,6 +30,7 @@ void sb_tops_destroy(sb_tops *tops)
 {
     sb_gl.DeleteTextures(1, &tops->texture);
     sb_free(tops->top);
+    sb_free(tops->areas);
     *tops = (sb_tops){0};
 }
 
@@ -57,8 +58,39 @@ void sb_tops_add(sb_tops *tops, const sb_frame *frame, const sb_density *density
     }
 }
 
-void sb_tops_upload(const sb_tops *tops)
+static void upload(const sb_tops *tops, const float *values)
 {
     sb_gl.BindTexture(GL_TEXTURE_2D, tops->texture);
-    sb_gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, tops->side, tops->side, 0, GL_RED, GL_FLOAT, tops->top);
+    sb_gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, tops->side, tops->side, 0, GL_RED, GL_FLOAT, values);
+}
+
+void sb_tops_upload(const sb_tops *tops)
+{
+    upload(tops, tops->top);
+}
+
+/* The number of cells with water in and around a cell. */
+static int wet_around(const sb_tops *tops, int x, int y)
+{
+    const int last = tops->side - 1;
+    int wet = 0;
+    for (int v = y > 0 ? y - 1 : y; v <= y + 1 && v <= last; v++)
+        for (int u = x > 0 ? x - 1 : x; u <= x + 1 && u <= last; u++)
+            wet += tops->top[(size_t)v * (size_t)tops->side + (size_t)u] > SB_TOPS_DRY;
+    return wet;
+}
+
+sb_status sb_tops_upload_areas(sb_tops *tops, sb_error *error)
+{
+    const int side = tops->side;
+    if (!tops->areas) tops->areas = sb_alloc_untouched((size_t)side * (size_t)side, sizeof *tops->areas);
+    if (!tops->areas) return sb_fail_memory(error, "a map of the water");
+    for (int y = 0; y < side; y++)
+        for (int x = 0; x < side; x++) {
+            const size_t cell = (size_t)y * (size_t)side + (size_t)x;
+            const float top = tops->top[cell];
+            tops->areas[cell] = top > SB_TOPS_DRY && wet_around(tops, x, y) < 4 ? SB_TOPS_DRY : top;
+        }
+    upload(tops, tops->areas);
+    return SB_OK;
 }

@@ -9,8 +9,9 @@
 
 /* A zeroed struct is empty. */
 typedef struct sb_tops {
-    int side;   /* cells on each side */
-    float *top; /* row by row; SB_TOPS_DRY where there has been no water */
+    int side;     /* cells on each side */
+    float *top;   /* row by row; SB_TOPS_DRY where there has been no water */
+    float *areas; /* of the texture, if it has areas only */
     GLuint texture;
 } sb_tops;
 
@@ -34,5 +35,9 @@ void sb_tops_add(sb_tops *tops, const sb_frame *frame, const sb_density *density
 
 /* Copies the map to its texture. */
 void sb_tops_upload(const sb_tops *tops);
+
+/* The same, without cells that have fewer than four cells with water among the nine around and in them: the tracks of
+   single particles. */
+sb_status sb_tops_upload_areas(sb_tops *tops, sb_error *error);
 
 #endif

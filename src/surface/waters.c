@@ -33,9 +33,9 @@ static void join_rows(const float *value, size_t nodes, uint32_t *parent)
 #pragma omp parallel for schedule(static)
     for (size_t row = 0; row < nodes / SIDE; row++)
         for (size_t n = SIDE * row; n < SIDE * (row + 1); n++)
-            parent[n] = !(value[n] > SB_LEVEL)                        ? none
+            parent[n] = !(value[n] > SB_LEVEL)                      ? none
                         : n > SIDE * row && value[n - 1] > SB_LEVEL ? parent[n - 1]
-                                                                      : (uint32_t)n;
+                                                                    : (uint32_t)n;
 }
 
 /* Returns whether there is water in the block or beside it. */
@@ -43,8 +43,7 @@ static bool collect(const sb_blocks *blocks, size_t block, const uint32_t *paren
 {
     int64_t in[8];
     bool wet = false;
-    for (int s = 0; s < 8; s++)
-        in[s] = s ? sb_blocks_at(blocks, block, s & 1, s >> 1 & 1, s >> 2) : (int64_t)block;
+    for (int s = 0; s < 8; s++) in[s] = s ? sb_blocks_at(blocks, block, s & 1, s >> 1 & 1, s >> 2) : (int64_t)block;
     for (int z = 0; z < WIDE; z++)
         for (int y = 0; y < WIDE; y++)
             for (int x = 0; x < WIDE; x++) {
@@ -115,11 +114,11 @@ static uint32_t node_of(const sb_blocks *blocks, size_t block, size_t particle, 
             square += (place - (float)at[a]) * (place - (float)at[a]);
         }
         if (!(square < least)) continue;
-        const int64_t in = out[0] + out[1] + out[2] > 0 ? sb_blocks_at(blocks, block, out[0], out[1], out[2])
-                                                       : (int64_t)block;
+        const int64_t in =
+            out[0] + out[1] + out[2] > 0 ? sb_blocks_at(blocks, block, out[0], out[1], out[2]) : (int64_t)block;
         if (in < 0) continue;
-        const size_t node = (size_t)in * SB_BLOCK_NODES +
-                            (size_t)(((at[2] % SIDE) * SIDE + at[1] % SIDE) * SIDE + at[0] % SIDE);
+        const size_t node =
+            (size_t)in * SB_BLOCK_NODES + (size_t)(((at[2] % SIDE) * SIDE + at[1] % SIDE) * SIDE + at[0] % SIDE);
         if (parent[node] == none) continue;
         nearest = (uint32_t)node;
         least = square;
