@@ -21,7 +21,7 @@ static const char inputs[] =
     "#ifdef SHADOWS\n"
     "float sunny(vec3 p, float bias) {\n"
     "  vec3 s = (to_shadow * vec4(p, 1.0)).xyz;\n"
-    "  return 1.0 - 0.65 * above(shade, s.xy, bias - s.z);\n"
+    "  return 1.0 - 0.65 * shading(shade, s.xy, -s.z, bias);\n"
     "}\n"
     "#else\n"
     "float sunny(vec3 p, float bias) { return 1.0; }\n"

@@ -3,17 +3,22 @@
 
 #include "base/memory.h"
 
-/* The mean of four comparisons, weighted so that it has no steps between cells. */
-const char sb_tops_source[] = "float above(sampler2D map, vec2 at, float height) {\n"
-                              "  vec2 p = at * vec2(textureSize(map, 0)) - 0.5;\n"
-                              "  ivec2 low = ivec2(floor(p)), last = textureSize(map, 0) - 1;\n"
-                              "  vec2 s = smoothstep(0.0, 1.0, p - vec2(low));\n"
-                              "  ivec2 a = clamp(low, ivec2(0), last), b = clamp(low + 1, ivec2(0), last);\n"
-                              "  vec4 tops = vec4(texelFetch(map, a, 0).x, texelFetch(map, ivec2(b.x, a.y), 0).x,\n"
-                              "                   texelFetch(map, ivec2(a.x, b.y), 0).x, texelFetch(map, b, 0).x);\n"
-                              "  vec4 over = step(height, tops);\n"
-                              "  return mix(mix(over.x, over.y, s.x), mix(over.z, over.w, s.x), s.y);\n"
-                              "}\n";
+/* The means of four values, weighted so that they have no steps between cells. */
+const char sb_tops_source[] =
+    "float between(sampler2D map, vec2 at, float from, float width) {\n"
+    "  vec2 p = at * vec2(textureSize(map, 0)) - 0.5;\n"
+    "  ivec2 low = ivec2(floor(p)), last = textureSize(map, 0) - 1;\n"
+    "  vec2 s = smoothstep(0.0, 1.0, p - vec2(low));\n"
+    "  ivec2 a = clamp(low, ivec2(0), last), b = clamp(low + 1, ivec2(0), last);\n"
+    "  vec4 tops = vec4(texelFetch(map, a, 0).x, texelFetch(map, ivec2(b.x, a.y), 0).x,\n"
+    "                   texelFetch(map, ivec2(a.x, b.y), 0).x, texelFetch(map, b, 0).x);\n"
+    "  vec4 over = width > 0.0 ? clamp((tops - from) / width, 0.0, 1.0) : step(from, tops);\n"
+    "  return mix(mix(over.x, over.y, s.x), mix(over.z, over.w, s.x), s.y);\n"
+    "}\n"
+    "float above(sampler2D map, vec2 at, float height) { return between(map, at, height, 0.0); }\n"
+    "float shading(sampler2D map, vec2 at, float height, float bias) {\n"
+    "  return between(map, at, height + 0.5 * bias, 2.5 * bias);\n"
+    "}\n";
 
 sb_status sb_tops_create(int side, sb_tops *tops, sb_error *error)
 {

@@ -18,7 +18,9 @@ typedef struct sb_tops {
 #define SB_TOPS_DRY (-1e30f)
 
 /* GLSL: float above(sampler2D map, vec2 at, float height): the fraction 0..1 of the map around `at` (0..1) whose value
-   is above `height`. */
+   is above `height`. float shading(sampler2D map, vec2 at, float height, float bias): the same, but a value counts in
+   part from half of `bias` above the height on, and whole from three times `bias` on: water that is hardly behind other
+   water would have a shadow with the steps of the map's cells. */
 extern const char sb_tops_source[];
 
 /* Makes an empty map. The context must be current. A zeroed sb_tops may be destroyed. */
