@@ -52,16 +52,19 @@ sb_status sb_marks_scale(sb_image *image, const sb_view *view, sb_vec3 target, s
     /* One of the intervals of a tick scale: 75 to 190 px. */
     const double length = sb_overlay_tick(190 * unit * per_pixel, 2), long_px = length / per_pixel;
     if (!(long_px > 0) || !isfinite(long_px)) return SB_OK;
-    const double x = 34 * unit, y = image->height - 42 * unit, tall = 5 * unit;
-    rimmed(image, x, y, x + long_px, y, 2 * unit);
-    rimmed(image, x, y - tall, x, y + tall, 2 * unit);
-    rimmed(image, x + long_px, y - tall, x + long_px, y + tall, 2 * unit);
+    const double x = 34 * unit, y = image->height - 42 * unit, tall = 5 * unit, letters = 11 * unit;
     char label[48];
     if (length >= 1000)
         snprintf(label, sizeof label, "%.6g km", length / 1000);
     else
         snprintf(label, sizeof label, "%.6g m", length);
-    return sb_font_draw(image, x + 8 * unit, y - 9 * unit, 11 * unit, ink, label, error);
+    const double text = 8 * unit + sb_font_width(label, letters);
+    sb_overlay_plate(image, x - 14 * unit, y - 28 * unit, x + 14 * unit + (text > long_px ? text : long_px),
+                     y + 13 * unit);
+    rimmed(image, x, y, x + long_px, y, 2 * unit);
+    rimmed(image, x, y - tall, x, y + tall, 2 * unit);
+    rimmed(image, x + long_px, y - tall, x + long_px, y + tall, 2 * unit);
+    return sb_font_draw(image, x + 8 * unit, y - 9 * unit, letters, ink, label, error);
 }
 
 /* The place of a point in the picture, px. */
@@ -87,6 +90,7 @@ sb_status sb_marks_north(sb_image *image, const sb_view *view, sb_vec3 target, s
     dy *= length / seen;
     const double x = image->width - 64 * unit, y = 64 * unit;
     const double tip_x = x + 0.5 * dx, tip_y = y + 0.5 * dy;
+    sb_overlay_plate(image, x - 46 * unit, y - 46 * unit, x + 46 * unit, y + 46 * unit);
     rimmed(image, x - 0.5 * dx, y - 0.5 * dy, tip_x, tip_y, 2.2 * unit);
     rimmed(image, tip_x, tip_y, tip_x - 0.28 * dx - 0.16 * dy, tip_y - 0.28 * dy + 0.16 * dx, 2.2 * unit);
     rimmed(image, tip_x, tip_y, tip_x - 0.28 * dx + 0.16 * dy, tip_y - 0.28 * dy - 0.16 * dx, 2.2 * unit);

@@ -29,8 +29,7 @@ static sb_status add_reached(sb_overhead *o, const sb_light *light, const sb_fra
                        {0, scale, 0, ((float)shift.y - corner[1]) * scale},
                        {0, 0, 1, (float)(shift.z + 0.5 * frame->spacing)}};
     sb_tops_add(&o->reached, frame, density, 0.14f, map);
-    sb_tops_upload(&o->reached);
-    return SB_OK;
+    return sb_tops_upload_areas(&o->reached, error);
 }
 
 /* Finds the water as seen from the sun; heights are towards the sun. */

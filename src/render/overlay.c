@@ -29,6 +29,12 @@ static void fill(sb_image *image, double x0, double y0, double x1, double y1, co
         }
 }
 
+void sb_overlay_plate(sb_image *image, double x0, double y0, double x1, double y1)
+{
+    static const float dark[3] = {0.04f, 0.07f, 0.11f};
+    fill(image, x0, y0, x1, y1, dark, 0.45);
+}
+
 static double unit_of(const sb_image *image)
 {
     const double unit = image->height / 720.0;
@@ -43,6 +49,7 @@ sb_status sb_overlay_legend(sb_image *image, int slot, const sb_legend *legend, 
     double width = 300 * unit, thick = 13 * unit;
     width = width < 0.5 * image->width ? width : 0.5 * image->width;
     double x = image->width - 34 * unit - width, y = image->height - (58 + SB_OVERLAY_SLOT * slot) * unit;
+    sb_overlay_plate(image, x - 12 * unit, y - 26 * unit, x + width + 14 * unit, y + 36 * unit);
     fill(image, x - 1.5, y - 1.5, x + width + 1.5, y + thick + 1.5, dark, 0.55);
     for (int column = 0; column < (int)lround(width); column++) {
         float rgb[3];
@@ -72,14 +79,15 @@ sb_status sb_overlay_title(sb_image *image, const char *title, double time, sb_e
     const double unit = unit_of(image);
     char clock[64];
     snprintf(clock, sizeof clock, "t = %.*f s", time < 10 ? 2 : 1, time);
-    double line = 44 * unit;
+    const double letters = 17 * unit, room = image->width - 60 * unit,
+                 full = sb_font_width(title ? title : "", letters);
+    const bool titled = full > 0, shrinks = full > room; /* a long title shrinks until it fits */
+    const double wide = shrinks ? room : full, below = sb_font_width(clock, 15 * unit);
+    const double line = (titled ? 75 : 44) * unit;
+    sb_overlay_plate(image, 18 * unit, 16 * unit, 42 * unit + (wide > below ? wide : below), line + 11 * unit);
     sb_status status = SB_OK;
-    if (title && *title) {
-        /* A long title shrinks until it fits. */
-        double letters = 17 * unit, room = image->width - 60 * unit;
-        double wide = sb_font_width(title, letters);
-        status = sb_font_draw(image, 30 * unit, line, wide > room ? letters * room / wide : letters, ink, title, error);
-        line += 31 * unit;
-    }
+    if (titled)
+        status =
+            sb_font_draw(image, 30 * unit, 44 * unit, shrinks ? letters * room / full : letters, ink, title, error);
     return status == SB_OK ? sb_font_draw(image, 30 * unit, line, 15 * unit, ink, clock, error) : status;
 }

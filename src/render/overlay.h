@@ -23,4 +23,7 @@ sb_status sb_overlay_legend(sb_image *image, int slot, const sb_legend *legend, 
 /* Returns the smallest step of 1, 2 or 5 times a power of ten that divides `range` into at most `most` intervals. */
 double sb_overlay_tick(double range, int most);
 
+/* Darkens a box behind text, so that it is legible on white surfaces, too. px from the top left corner. */
+void sb_overlay_plate(sb_image *image, double x0, double y0, double x1, double y1);
+
 #endif

@@ -194,9 +194,10 @@ sb_status sb_slice_legend(sb_image *image, const sb_slice_job *job, sb_vec3 targ
     const double y = image->height - (58 + SB_OVERLAY_SLOT * slots) * unit, right = image->width - 34 * unit;
     const double from[2] = {right - length, y}, to[2] = {right, y}, letters = 11 * unit;
     char label[48];
+    snprintf(label, sizeof label, "%.6g m/s", speed);
+    const double text = sb_font_width(label, letters);
+    sb_overlay_plate(image, from[0] - 24 * unit - text, y - 14 * unit, right + 14 * unit, y + 14 * unit);
     paint_arrow(image, from, to, 3.4 * unit, dark);
     paint_arrow(image, from, to, 1.6 * unit, light);
-    snprintf(label, sizeof label, "%.6g m/s", speed);
-    return sb_font_draw(image, from[0] - 10 * unit - sb_font_width(label, letters), y + 0.5 * letters, letters, light,
-                        label, error);
+    return sb_font_draw(image, from[0] - 10 * unit - text, y + 0.5 * letters, letters, light, label, error);
 }

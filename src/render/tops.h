@@ -9,15 +9,18 @@
 
 /* A zeroed struct is empty. */
 typedef struct sb_tops {
-    int side;   /* cells on each side */
-    float *top; /* row by row; SB_TOPS_DRY where there has been no water */
+    int side;     /* cells on each side */
+    float *top;   /* row by row; SB_TOPS_DRY where there has been no water */
+    float *areas; /* of the texture, if it has areas only */
     GLuint texture;
 } sb_tops;
 
 #define SB_TOPS_DRY (-1e30f)
 
 /* GLSL: float above(sampler2D map, vec2 at, float height): the fraction 0..1 of the map around `at` (0..1) whose value
-   is above `height`. */
+   is above `height`. float shading(sampler2D map, vec2 at, float height, float bias): the same, but a value counts in
+   part from half of `bias` above the height on, and whole from three times `bias` on: water that is hardly behind other
+   water would have a shadow with the steps of the map's cells. */
 extern const char sb_tops_source[];
 
 /* Makes an empty map. The context must be current. A zeroed sb_tops may be destroyed. */
@@ -34,5 +37,9 @@ void sb_tops_add(sb_tops *tops, const sb_frame *frame, const sb_density *density
 
 /* Copies the map to its texture. */
 void sb_tops_upload(const sb_tops *tops);
+
+/* The same, without cells that have fewer than four cells with water among the nine around and in them: the tracks of
+   single particles. */
+sb_status sb_tops_upload_areas(sb_tops *tops, sb_error *error);
 
 #endif

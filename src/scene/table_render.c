@@ -97,7 +97,7 @@ static const sb_key render_keys[] = {
     {.name = "wet_ground", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, wet_ground), .fallback = "false",
      .doc = "Whether ground and walls that the water has reached are darker."},
     {.name = "greatest_depth", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, greatest_depth),
-     .fallback = "false", .doc = "Whether the greatest depth so far is painted on terrain above the still water."},
+     .fallback = "false", .doc = "Whether the greatest depth so far is painted on terrain and walls above the still water."},
     {.name = "loads", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, loads), .fallback = "false",
      .doc = "Whether the faces of bodies have the colour of the mean pressure on them; see [pictures](pictures.md#loads)."},
     {.name = "load_max", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_render_settings, load_max), .unit = "Pa",

@@ -25,6 +25,7 @@ typedef struct march {
     const sb_blocks *blocks;
     const float *value;
     crossings *crossings; /* of each block */
+    uint32_t *node;       /* of each vertex, the node in the water */
     sb_cube_case cases[256];
 } march;
 
@@ -154,6 +155,12 @@ static float refine(float here, float there, float part, float field)
     return other >= 0 && other <= 1 ? other : part;
 }
 
+static uint32_t node_of(const nodes *n, int x, int y, int z)
+{
+    const size_t in = (size_t)n->block[(x == SIDE) | (y == SIDE) << 1 | (z == SIDE) << 2];
+    return (uint32_t)(in * SB_BLOCK_NODES + (size_t)(((z % SIDE) * SIDE + y % SIDE) * SIDE + x % SIDE));
+}
+
 static void write_vertices(const march *m, size_t block, const nodes *n, const sb_near *near, sb_water_mesh *mesh)
 {
     const crossings *c = &m->crossings[block];
@@ -169,6 +176,8 @@ static void write_vertices(const march *m, size_t block, const nodes *n, const s
             at[axis] += part;
             const float field = interpolate(m, near, at, mesh->velocity[v], &mesh->pressure[v]);
             at[axis] += within(refine(here, there, part, field)) - part;
+            m->node[v] = node_of(n, x + (axis == 0 && !(here > SB_LEVEL)), y + (axis == 1 && !(here > SB_LEVEL)),
+                                 z + (axis == 2 && !(here > SB_LEVEL)));
             for (int a = 0; a < 3; a++) mesh->position[v][a] = (float)(start[a] + (double)at[a] * m->blocks->cell);
         }
 }
@@ -187,12 +196,13 @@ static sb_status allocate(march *m, sb_water_mesh *mesh, sb_error *error)
     }
     mesh->vertices = vertices;
     mesh->triangles = triangles;
+    m->node = sb_alloc_untouched(vertices, sizeof *m->node);
     mesh->position = sb_alloc_untouched(vertices, sizeof *mesh->position);
     mesh->normal = sb_alloc(vertices, sizeof *mesh->normal);
     mesh->velocity = sb_alloc_untouched(vertices, sizeof *mesh->velocity);
     mesh->pressure = sb_alloc_untouched(vertices, sizeof *mesh->pressure);
     mesh->corner = sb_alloc_untouched(triangles, sizeof *mesh->corner);
-    return mesh->position && mesh->normal && mesh->velocity && mesh->pressure && mesh->corner
+    return m->node && mesh->position && mesh->normal && mesh->velocity && mesh->pressure && mesh->corner
                ? SB_OK
                : sb_fail_memory(error, "a surface");
 }
@@ -220,8 +230,13 @@ static int write_mesh(const march *m, sb_water_mesh *mesh)
 }
 
 sb_status sb_march(const sb_frame *frame, const sb_blocks *blocks, const float *value, sb_water_mesh *mesh,
-                   sb_error *error)
+                   uint32_t **node, sb_error *error)
 {
+    *node = NULL;
+    if (blocks->count > UINT32_MAX / SB_BLOCK_NODES)
+        return sb_fail(error, SB_BAD_INPUT,
+                       "the surface has %zu blocks of cells, expected at most %u: use larger cells", blocks->count,
+                       UINT32_MAX / SB_BLOCK_NODES);
     march m = {.frame = frame, .blocks = blocks, .value = value};
     m.crossings = sb_alloc_untouched(blocks->count, sizeof *m.crossings);
     if (!m.crossings) return sb_fail_memory(error, "a surface");
@@ -231,5 +246,9 @@ sb_status sb_march(const sb_frame *frame, const sb_blocks *blocks, const float *
     sb_status status = allocate(&m, mesh, error);
     if (status == SB_OK && write_mesh(&m, mesh) != 0) status = sb_fail_memory(error, "a surface");
     sb_free(m.crossings);
+    if (status == SB_OK)
+        *node = m.node;
+    else
+        sb_free(m.node);
     return status;
 }

@@ -8,8 +8,9 @@
 
 /* Makes the vertices, with velocity and pressure interpolated between particles by the field's kernel, and the
    triangles. Normals are not set. *mesh must be empty; on failure it may be incomplete, and the caller frees it in any
-   case. */
+   case. *node: of each vertex the node of the grid, of all blocks one after another, that is in the water on its edge;
+   the caller frees it with sb_free; NULL on failure. */
 sb_status sb_march(const sb_frame *frame, const sb_blocks *blocks, const float *value, sb_water_mesh *mesh,
-                   sb_error *error);
+                   uint32_t **node, sb_error *error);
 
 #endif

@@ -1,7 +1,6 @@
 #include "surface/smooth.h"
 
 #include "base/memory.h"
-#include "surface/parts.h"
 
 #include <math.h>
 
@@ -16,8 +15,9 @@ typedef struct work {
     uint32_t *begin; /* of each vertex's triangles, and the end */
     uint32_t (*other)[2];
     float (*moved)[3];
-    sb_mesh_parts parts;
-    double *volume, *now, *area; /* of each part: m^3 before and now; m^2 / 3 */
+    const sb_waters *waters;
+    double spacing;     /* m */
+    double *now, *area; /* of each water: m^3, then the way of the next move in m; m^2 / 3 */
 } work;
 
 static sb_status list_triangles(work *w, sb_error *error)
@@ -26,11 +26,9 @@ static sb_status list_triangles(work *w, sb_error *error)
     w->begin = sb_alloc(mesh->vertices + 2, sizeof *w->begin);
     w->other = sb_alloc_untouched(3 * mesh->triangles, sizeof *w->other);
     w->moved = sb_alloc_untouched(mesh->vertices, sizeof *w->moved);
-    w->volume = sb_alloc(w->parts.count, sizeof *w->volume);
-    w->now = sb_alloc(w->parts.count, sizeof *w->now);
-    w->area = sb_alloc(w->parts.count, sizeof *w->area);
-    if (!w->begin || !w->other || !w->moved || !w->volume || !w->now || !w->area)
-        return sb_fail_memory(error, "smoothing a surface");
+    w->now = sb_alloc(w->waters->count, sizeof *w->now);
+    w->area = sb_alloc(w->waters->count, sizeof *w->area);
+    if (!w->begin || !w->other || !w->moved || !w->now || !w->area) return sb_fail_memory(error, "smoothing a surface");
     uint32_t *next =
         w->begin + 1; /* next[v]: where the next triangle of v goes; at the end, where those of v + 1 begin */
     for (size_t t = 0; t < mesh->triangles; t++)
@@ -86,32 +84,34 @@ static double length_of(const float v[3])
     return sqrt((double)v[0] * (double)v[0] + (double)v[1] * (double)v[1] + (double)v[2] * (double)v[2]);
 }
 
-/* The volumes of the parts from the area vectors: the derivative of the volume by the place of a vertex is a third of
+/* The volumes of the waters from the area vectors: the derivative of the volume by the place of a vertex is a third of
    its area vector A, and the volume is of third degree in the places x, so that it is the sum of A . x / 9. */
-static void measure(work *w, double *volume)
+static void measure(work *w)
 {
     const sb_water_mesh *mesh = w->mesh;
-    for (size_t p = 0; p < w->parts.count; p++) volume[p] = w->area[p] = 0;
+    for (size_t k = 0; k < w->waters->count; k++) w->now[k] = w->area[k] = 0;
     for (size_t v = 0; v < mesh->vertices; v++) {
-        const uint32_t part = w->parts.part[v];
-        const float *at = mesh->position[v], *from = mesh->position[w->parts.first[part]], *area = mesh->normal[v];
-        for (int a = 0; a < 3; a++) volume[part] += (double)area[a] * ((double)at[a] - (double)from[a]) / 9;
-        w->area[part] += length_of(area) / 3;
+        const uint32_t water = w->waters->water[v];
+        const float *at = mesh->position[v], *from = mesh->position[w->waters->first[water]], *area = mesh->normal[v];
+        for (int a = 0; a < 3; a++) w->now[water] += (double)area[a] * ((double)at[a] - (double)from[a]) / 9;
+        w->area[water] += length_of(area) / 3;
     }
 }
 
-/* Moves each part along its normals, so that its volume becomes that before, to first order. */
+/* Moves the surfaces of each water along their normals, so that it has the volume of its particles, to first order. */
 static void restore(work *w, double most)
 {
+    const double particle = w->spacing * w->spacing * w->spacing;
     sum_areas(w);
-    measure(w, w->now);
-    for (size_t p = 0; p < w->parts.count; p++) {
-        const double way = w->area[p] > 0 ? (w->volume[p] - w->now[p]) / w->area[p] : 0;
-        w->now[p] = fmin(fmax(way, -most), most);
+    measure(w);
+    for (size_t k = 0; k < w->waters->count; k++) {
+        const double wanted = particle * w->waters->particles[k];
+        const double way = wanted > 0 && w->area[k] > 0 ? (wanted - w->now[k]) / w->area[k] : 0;
+        w->now[k] = fmin(fmax(way, -most), most);
     }
 #pragma omp parallel for schedule(static)
     for (size_t v = 0; v < w->mesh->vertices; v++) {
-        const double length = length_of(w->mesh->normal[v]), way = w->now[w->parts.part[v]];
+        const double length = length_of(w->mesh->normal[v]), way = w->now[w->waters->water[v]];
         for (int a = 0; a < 3 && length > 0; a++)
             w->mesh->position[v][a] += (float)(way * (double)w->mesh->normal[v][a] / length);
     }
@@ -128,27 +128,23 @@ static void set_normals(work *w)
     }
 }
 
-sb_status sb_water_mesh_smooth(sb_water_mesh *mesh, int rounds, double most, sb_error *error)
+sb_status sb_water_mesh_smooth(sb_water_mesh *mesh, const sb_waters *waters, double spacing, int rounds, double most,
+                               sb_error *error)
 {
-    work w = {.mesh = mesh};
-    sb_status status = sb_mesh_parts_find(mesh, &w.parts, error);
-    if (status == SB_OK) status = list_triangles(&w, error);
+    work w = {.mesh = mesh, .waters = waters, .spacing = spacing};
+    sb_status status = list_triangles(&w, error);
     if (status == SB_OK) {
-        sum_areas(&w);
-        measure(&w, w.volume);
         for (int r = 0; r < rounds; r++) {
             filter(&w, shrink);
             filter(&w, grow);
             if (r % ROUNDS_PER_MOVE == 0) restore(&w, most);
         }
-        for (int r = 0; r < LAST_MOVES && rounds > 0; r++) restore(&w, most);
+        for (int r = 0; r < LAST_MOVES; r++) restore(&w, most);
         set_normals(&w);
     }
-    sb_mesh_parts_free(&w.parts);
     sb_free(w.begin);
     sb_free(w.other);
     sb_free(w.moved);
-    sb_free(w.volume);
     sb_free(w.now);
     sb_free(w.area);
     return status;

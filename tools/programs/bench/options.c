@@ -7,17 +7,18 @@
 enum { REPEATS = 7, REPEATS_QUICK = 2 };
 
 static const char help[] =
-    "usage: tools/bench [kernels|scenes|scaling|memory|large|runs|island|all]... [OPTIONS]\n"
+    "usage: tools/bench [kernels|scenes|scaling|memory|pictures|large|runs|island|all]... [OPTIONS]\n"
     "Measures run time and memory of the simulation on this machine; writes tables and benchmarks.md.\n\n"
     "  kernels        each stage and pass of a step, compared with this machine's limits\n"
     "  scenes         steps of the delivered scenes, stage by stage\n"
     "  scaling        cost per particle, 50 thousand to 4 million particles, one thread and more\n"
     "  memory         bytes per particle, array by array; cost of dry land\n"
+    "  pictures       pictures of 1280 x 720 px, PNG file included\n"
     "  large          the plant at 1 m (18 million particles): set-up, 20 steps, peak memory\n"
     "  runs           whole runs: the plant at 4 m by both presets, the column at 1 cm by two settings\n"
     "  island         a whole run of the conical island of the validation\n"
     "  tradeoff       run time against error: runs tools/tradeoff with its options\n"
-    "  all            kernels, scenes, scaling and memory (the default)\n\n"
+    "  all            kernels, scenes, scaling, memory and pictures (the default)\n\n"
     "  --quick        small sizes, for a first look; goes to build/bench\n"
     "  --out DIR      folder of benchmarks.md and bench/<machine>/*.csv (docs/results)\n"
     "  --machine NAME folder of this machine's tables (default: from its processor's name and cores)\n"

@@ -1,0 +1,178 @@
+/* What the water leaves behind: wet ground and walls, and the greatest depth on them. */
+#include "base/memory.h"
+#include "render/renderer.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { WIDTH = 240, HEIGHT = 180 };
+
+/* A camera 22 m before a wall whose face is at x = 2 m, on ground at z = 0. */
+struct stage {
+    sb_camera_key key;
+    sb_camera camera;
+    sb_scene scene;
+    sb_model_body bodies[2];
+    sb_model model;
+};
+
+static sb_mesh box(sb_vec3 min, sb_vec3 max)
+{
+    static const uint32_t faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                                          {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    sb_mesh mesh = {.vertex_count = 8, .triangle_count = 12};
+    mesh.vertices = sb_alloc(8, sizeof *mesh.vertices);
+    mesh.triangles = sb_alloc(12, sizeof *mesh.triangles);
+    for (int i = 0; i < 8; i++)
+        mesh.vertices[i] = sb_vec(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z);
+    memcpy(mesh.triangles, faces, sizeof faces);
+    return mesh;
+}
+
+static void set_stage(struct stage *stage, sb_vec3 eye)
+{
+    memset(stage, 0, sizeof *stage);
+    stage->key = (sb_camera_key){.eye = eye, .target = sb_vec(2, 0, 3), .fov = 60};
+    stage->camera = (sb_camera){.name = "front", .key_count = 1, .keys = &stage->key};
+    stage->scene.fluid.gravity = 9.81;
+    stage->scene.sea.level = -1;
+    stage->scene.render = (sb_render_settings){
+        .width = WIDTH, .height = HEIGHT, .speed_max = 10, .camera_count = 1, .cameras = &stage->camera};
+    stage->model.min = sb_vec(-20, -20, -10);
+    stage->model.max = sb_vec(20, 20, 10);
+    stage->model.bodies = stage->bodies;
+    stage->model.body_count = 2;
+    for (int b = 0; b < 2; b++) {
+        strcpy(stage->bodies[b].name, b ? "wall" : "ground");
+        stage->bodies[b].color[0] = -1;
+        stage->bodies[b].wavemaker = -1;
+    }
+    stage->bodies[0].mesh = box(sb_vec(-20, -20, -2), sb_vec(20, 20, 0));
+    stage->bodies[1].mesh = box(sb_vec(2, -12, 0), sb_vec(6, 12, 9));
+}
+
+static void clear_stage(struct stage *stage)
+{
+    for (int b = 0; b < 2; b++) {
+        sb_free(stage->bodies[b].mesh.vertices);
+        sb_free(stage->bodies[b].mesh.triangles);
+    }
+}
+
+/* nx x ny x nz particles of 0.5 m, the lowest corner of their volume at `from`. */
+static sb_frame *water(double time, sb_vec3 from, int nx, int ny, int nz)
+{
+    sb_frame *frame = sb_frame_create((size_t)(nx * ny * nz), 2);
+    assert_non_null(frame);
+    frame->spacing = 0.5;
+    frame->status.time = time;
+    strcpy(frame->bodies[0].name, "ground");
+    strcpy(frame->bodies[1].name, "wall");
+    float *p = frame->position;
+    for (int k = 0; k < nz; k++)
+        for (int j = 0; j < ny; j++)
+            for (int i = 0; i < nx; i++, p += 3) {
+                p[0] = (float)(from.x + 0.25 + 0.5 * i);
+                p[1] = (float)(from.y + 0.25 + 0.5 * j);
+                p[2] = (float)(from.z + 0.25 + 0.5 * k);
+            }
+    memset(frame->velocity, 0, 3 * frame->count * sizeof(float));
+    memset(frame->pressure, 0, frame->count * sizeof(float));
+    return frame;
+}
+
+/* The picture of the dry stage after the water was there. */
+static sb_image after(const struct stage *stage, sb_frame *before)
+{
+    sb_error error = {0};
+    sb_renderer *renderer = NULL;
+    sb_image image = {0};
+    sb_frame *dry = water(2, sb_vec(0, 0, 0), 0, 0, 0);
+    if (sb_renderer_create(&stage->scene, &stage->model, &renderer, &error) != SB_OK ||
+        sb_renderer_draw(renderer, before, 0, &image, &error) != SB_OK ||
+        sb_renderer_draw(renderer, dry, 0, &image, &error) != SB_OK)
+        fail_msg("%s", error.text);
+    sb_renderer_destroy(renderer);
+    sb_frame_release(before);
+    sb_frame_release(dry);
+    return image;
+}
+
+static const unsigned char *pixel(const sb_image *image, int x, int y)
+{
+    return image->rgb + 3 * (y * image->width + x);
+}
+
+static int differ(const sb_image *a, const sb_image *b, int x, int y)
+{
+    int most = 0;
+    for (int c = 0; c < 3; c++) {
+        const int d = abs(pixel(a, x, y)[c] - pixel(b, x, y)[c]);
+        most = d > most ? d : most;
+    }
+    return most;
+}
+
+/* Row of a height on the wall's face in a level picture: 22 m under 60 degrees. */
+static int row_of(double z)
+{
+    return (int)(HEIGHT / 2 * (1 - (z - 3) / (22 * 0.57735)));
+}
+
+/* A wall shows the depth that was before it, up to the highest water, whatever the height on the wall. */
+static void walls_show_the_greatest_depth(void **state)
+{
+    (void)state;
+    struct stage stage;
+    set_stage(&stage, sb_vec(-20, 0, 3));
+    stage.scene.render.greatest_depth = true;
+    sb_image dry = after(&stage, water(1, sb_vec(-8, -5, 0), 0, 0, 0));
+    sb_image deep = after(&stage, water(1, sb_vec(-8, -5, 0), 20, 20, 8));
+    sb_image low = after(&stage, water(1, sb_vec(-8, -5, 0), 20, 20, 3));
+    const int middle = WIDTH / 2;
+    assert_true(differ(&deep, &dry, middle, row_of(3.2)) > 20);
+    assert_true(differ(&deep, &dry, middle, row_of(0.8)) > 20);
+    assert_int_equal(differ(&deep, &dry, middle, row_of(5.2)), 0);
+    assert_int_equal(differ(&low, &dry, middle, row_of(3.2)), 0);
+    assert_true(differ(&low, &dry, middle, row_of(0.8)) > 20);
+    assert_true(differ(&low, &deep, middle, row_of(0.8)) > 20);
+    sb_image_free(&dry);
+    sb_image_free(&deep);
+    sb_image_free(&low);
+    clear_stage(&stage);
+}
+
+/* Water of some breadth wets the ground; the track of a single row of particles does not. */
+static void tracks_of_particles_leave_no_streaks(void **state)
+{
+    (void)state;
+    struct stage stage;
+    set_stage(&stage, sb_vec(-10, 0, 25));
+    stage.scene.render.wet_ground = true;
+    sb_image dry = after(&stage, water(1, sb_vec(-8, 0, 0), 0, 0, 0));
+    sb_image broad = after(&stage, water(1, sb_vec(-8, -1, 0), 16, 5, 3));
+    sb_image narrow = after(&stage, water(1, sb_vec(-8, 0, 0), 16, 1, 3));
+    int wet = 0, streaks = 0;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            wet += differ(&broad, &dry, x, y) > 8;
+            streaks += differ(&narrow, &dry, x, y) > 8;
+        }
+    assert_true(wet > 200);
+    assert_int_equal(streaks, 0);
+    sb_image_free(&dry);
+    sb_image_free(&broad);
+    sb_image_free(&narrow);
+    clear_stage(&stage);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(walls_show_the_greatest_depth),
+                                       cmocka_unit_test(tracks_of_particles_leave_no_streaks)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
