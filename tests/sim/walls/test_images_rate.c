@@ -281,13 +281,50 @@ static void walls_on_a_slope(void **state)
             }
 }
 
+/* The density of a particle that rises beside a wall from the bed has no jumps: of its second differences, which fall
+   with the square of the step, the largest is small. */
+static void a_way_beside_a_wall(void **state)
+{
+    (void)state;
+    enum { STEPS = 400 };
+    for (int end = 0; end < 2; end++) {
+        basin b;
+        const double tangent = tan(20 * 3.14159265358979 / 180), size = 1.2, s = 0.05;
+        fill_slope(&b, true, 20, false);
+        basin_start(&b);
+        sb_sim *sim = b.sim;
+        assert_int_equal(tank_prepare(sim, 1e-3), 0);
+        const double x = end ? size - 0.4 * s : 0.4 * s, bed = 0.3 + tangent * (size / 2 + x);
+        uint32_t id = 0;
+        double nearest = INFINITY;
+        for (size_t i = 0; i < sim->state.n; i++) {
+            const double away =
+                sb_norm(sb_sub(sb_space_position(&sim->space, sim->state.position[i]), sb_vec(x, 0, bed)));
+            if (away < nearest) nearest = away, id = sim->state.id[i];
+        }
+        double density[STEPS], worst = 0, rho = (double)sim->constant.rest_density;
+        for (int k = 0; k < STEPS; k++) {
+            for (size_t i = 0; i < sim->state.n; i++)
+                if (sim->state.id[i] == id)
+                    sim->state.position[i] =
+                        sb_space_record(&sim->space, sb_vec(x, 0, bed + (0.5 + 2.0 * k / STEPS) * s));
+            assert_int_equal(tank_prepare(sim, 1e-3), 0);
+            for (size_t i = 0; i < sim->state.n; i++)
+                if (sim->state.id[i] == id) density[k] = (double)sim->work.density[i];
+            if (k >= 2) worst = fmax(worst, fabs(density[k] - 2 * density[k - 1] + density[k - 2]));
+        }
+        printf("  second difference of the density at most %.2g of it\n", worst / rho);
+        assert_true(worst < 2e-4 * rho);
+        basin_free(&b);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_moving_body),
-        cmocka_unit_test(a_plate),
-        cmocka_unit_test(a_bed_that_bends),
-        cmocka_unit_test(walls_on_a_slope),
+        cmocka_unit_test(a_moving_body),       cmocka_unit_test(a_plate),
+        cmocka_unit_test(a_bed_that_bends),    cmocka_unit_test(walls_on_a_slope),
+        cmocka_unit_test(a_way_beside_a_wall),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
