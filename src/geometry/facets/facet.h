@@ -20,6 +20,7 @@ typedef struct sb_facet_edge {
     sb_vec3 from, to; /* m; in 2D both are the same point */
     sb_vec3 inward;   /* unit, in the facet's plane */
     sb_bend bend;
+    sb_vec3 wall; /* of a concave edge: unit normal of what stands there; 0 if it is not known */
 } sb_facet_edge;
 
 typedef struct sb_facet {

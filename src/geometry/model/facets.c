@@ -119,7 +119,7 @@ static bool fills_corner(const builder *b, size_t body, const sb_facet *facet, c
 
 /* The bend towards one body's surface that touches the edge's middle. Returns false if none does. A side of another
    body that is hidden, because its top continues the facet, does not count. */
-static bool bend_towards(const builder *b, size_t body, const sb_facet *facet, const sb_facet_edge *edge, sb_vec3 at,
+static bool bend_towards(const builder *b, size_t body, const sb_facet *facet, sb_facet_edge *edge, sb_vec3 at,
                          sb_bend *bend)
 {
     const double near = TOUCHES * b->spacing;
@@ -134,6 +134,7 @@ static bool bend_towards(const builder *b, size_t body, const sb_facet *facet, c
     which.which = OTHER;
     if (sb_solid_distance_where(b->space->solid[body], at, near, counts, &which, &nearest, &normal) < near) {
         *bend = bend_of(facet->normal, edge->inward, normal);
+        edge->wall = normal;
         if (*bend != SB_BEND_CONCAVE || body == facet->body || fills_corner(b, body, facet, edge, at)) return true;
     }
     which.which = LIKE;
@@ -178,9 +179,20 @@ static bool along_side(const builder *b, int side, const sb_facet_edge *edge)
            fmax(from_side(b, side, edge->from), from_side(b, side, edge->to)) < TOUCHES * b->spacing;
 }
 
-/* The middle of the part of an edge that is within the walls; of the whole edge if none is. */
-static sb_vec3 middle_within(const builder *b, const sb_facet_edge *edge)
+/* Whether another body than the facet's own contains a point. */
+static bool buried(const builder *b, size_t own, sb_vec3 at)
 {
+    for (size_t body = 0; body < b->model->body_count; body++)
+        if (body != own && has_mesh(b, body) && b->space->solid[body] && sb_solid_contains(b->space->solid[body], at))
+            return true;
+    return false;
+}
+
+/* The middle of the part of an edge that is within the walls; of the whole edge if none is. If another body contains
+   it, as the bed contains the foot of a wall, the nearest place on the edge that none contains, of some. */
+static sb_vec3 middle_within(const builder *b, size_t own, const sb_facet_edge *edge)
+{
+    enum { PLACES = 32 };
     double low = 0, high = 1;
     for (int side = 0; side < SB_SIDES; side++) {
         if (!is_wall(b, side)) continue;
@@ -188,21 +200,31 @@ static sb_vec3 middle_within(const builder *b, const sb_facet_edge *edge)
         if (from < 0 && to > 0) low = fmax(low, from / (from - to));
         if (from > 0 && to < 0) high = fmin(high, from / (from - to));
     }
-    const double middle = low < high ? (low + high) / 2 : 0.5;
-    return sb_madd(edge->from, middle, sb_sub(edge->to, edge->from));
+    const double middle = low < high ? (low + high) / 2 : 0.5, half = low < high ? (high - low) / 2 : 0;
+    const sb_vec3 along = sb_sub(edge->to, edge->from), at = sb_madd(edge->from, middle, along);
+    if (!buried(b, own, at)) return at;
+    for (int k = 1; k < PLACES; k++)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            const sb_vec3 place = sb_madd(edge->from, middle + sign * half * k / PLACES, along);
+            if (!buried(b, own, place)) return place;
+        }
+    return at;
 }
 
-/* self: the facet's outline. */
-static sb_bend find_bend(const builder *b, size_t self, const sb_facet *facet, const sb_facet_edge *edge)
+/* self: the facet's outline. Notes the wall at a concave edge. */
+static sb_bend find_bend(const builder *b, size_t self, const sb_facet *facet, sb_facet_edge *edge)
 {
-    const sb_vec3 at = middle_within(b, edge);
+    const sb_vec3 at = middle_within(b, facet->body, edge);
     sb_bend found = SB_BEND_CONVEX;
     for (int side = 0; side < SB_SIDES; side++)
-        if (along_side(b, side, edge) && sb_dot(side_normal(side), edge->inward) > FLAT)
+        if (along_side(b, side, edge) && sb_dot(side_normal(side), edge->inward) > FLAT) {
+            edge->wall = side_normal(side);
             return is_cut(b, side) ? bend_of(facet->normal, edge->inward, side_normal(side)) : SB_BEND_CONCAVE;
+        }
     for (size_t body = 0; body < b->model->body_count; body++) {
         if (!has_mesh(b, body) || !b->space->solid[body]) continue;
         sb_bend bend;
+        edge->wall = (sb_vec3){0};
         if (!bend_towards(b, body, facet, edge, at, &bend)) {
             if (body == facet->body || !sb_solid_contains(b->space->solid[body], at)) continue;
             bend = SB_BEND_CONCAVE;
@@ -284,8 +306,8 @@ static bool hidden(const builder *b, const sb_outline *o, size_t body, sb_vec3 n
 /* Whether an edge continues another one on the same line, with the same bend. */
 static bool continues(const sb_facet_edge *last, const sb_facet_edge *next)
 {
-    return last->bend == next->bend && sb_norm(sb_cross(last->inward, next->inward)) < STRAIGHT &&
-           sb_dot(last->inward, next->inward) > 0;
+    return last->bend == next->bend && sb_norm(sb_cross(last->wall, next->wall)) < STRAIGHT &&
+           sb_norm(sb_cross(last->inward, next->inward)) < STRAIGHT && sb_dot(last->inward, next->inward) > 0;
 }
 
 /* Joins the edges of a facet that continue each other. Returns how many are left. */
@@ -317,8 +339,9 @@ static int add(builder *b, size_t outline, size_t body)
         const sb_vec3 from = o->corner[k], to = flat ? from : o->corner[(k + 1) % o->count];
         const sb_vec3 along = flat ? sb_sub(o->corner[1 - k], from) : sb_cross(o->normal, sb_sub(to, from));
         sb_facet_edge *edge = &out->edges[out->edge_count++];
-        *edge = (sb_facet_edge){from, to, sb_normalize(along), SB_BEND_SOFT};
+        *edge = (sb_facet_edge){from, to, sb_normalize(along), SB_BEND_SOFT, {0, 0, 0}};
         edge->bend = find_bend(b, outline, f, edge);
+        if (edge->bend != SB_BEND_CONCAVE) edge->wall = (sb_vec3){0};
     }
     if (!flat) f->edges = join_edges(out->edges + f->edge, f->edges);
     out->edge_count = f->edge + f->edges;

@@ -9,6 +9,9 @@
 /* Smallest cosine between normals of facets of which none reflects what the other has reflected: 45 degrees. */
 static const float BENT = 0.7071f;
 
+/* Cosines between normals: up to SQUARE of facets at right angles, from FACING on of those that face each other. */
+static const float SQUARE = 1e-3f, FACING = -0.9999f;
+
 /* In spacings: how far behind a plane water or a facet must be to count as behind it. */
 static const double BEHIND = 0.05;
 
@@ -38,8 +41,8 @@ static int add(sb_sim *sim, const sb_facets *facets, const sb_facet *f, sb_vec3 
     for (uint32_t k = 0; k < f->edges; k++) {
         const sb_facet_edge *e = &facets->edges[f->edge + k];
         const sb_vec3 from = to_quanta(&sim->space, sb_add(e->from, shift));
-        m->edge[m->edge_count++] = (sb_mirror_edge){from, to_quanta(&sim->space, sb_add(e->to, shift)), e->inward,
-                                                    sb_dot(e->inward, from), e->bend};
+        m->edge[m->edge_count++] = (sb_mirror_edge){
+            from, to_quanta(&sim->space, sb_add(e->to, shift)), e->inward, sb_dot(e->inward, from), e->bend, e->wall};
     }
     return 0;
 }
@@ -213,8 +216,11 @@ static void add_edges(const sb_sim *sim, const box *b, sb_vec3 moved, const sb_m
         const sb_mirror_edge *e = &sim->walls.mirrors.edge[k];
         const double away = from_segment(sb_add(e->from, moved), sb_add(e->to, moved), b->middle);
         if (away > b->radius) continue;
-        const sb_near_edge made = {{(float)e->inward.x, (float)e->inward.y, (float)e->inward.z,
-                                    (float)(e->distance + sb_dot(e->inward, sb_sub(moved, b->corner)))},
+        const bool leans = e->bend == SB_BEND_CONCAVE && fabs(sb_dot(e->wall, mirror->normal)) > (double)SQUARE;
+        const sb_vec3 inward = leans ? e->wall : e->inward;
+        const double distance_of = leans ? sb_dot(e->wall, e->from) : e->distance;
+        const sb_near_edge made = {{(float)inward.x, (float)inward.y, (float)inward.z,
+                                    (float)(distance_of + sb_dot(inward, sb_sub(moved, b->corner)))},
                                    e->bend};
         uint32_t at = 0;
         while (at < f->edges) {
@@ -287,9 +293,16 @@ static bool before(const sb_sim *sim, const sb_near_facet *a, const sb_near_face
     return of->edges == 0;
 }
 
+/* See sb_near.sectors. along: the cosine between the normals. */
+static float sectors_of(float along)
+{
+    if (fabsf(along) < SQUARE) return 2;
+    return along < FACING ? INFINITY : (float)M_PI / acosf(-along);
+}
+
 static void relate(const sb_sim *sim, sb_near *near)
 {
-    near->oblique = near->meeting = near->skew = false;
+    near->oblique = near->meeting = near->skew = near->blunt = false;
     for (size_t a = 0; a < near->count; a++)
         for (size_t b = 0; b < near->count; b++) {
             const sb_near_facet *one = &near->facet[a], *other = &near->facet[b];
@@ -297,7 +310,9 @@ static void relate(const sb_sim *sim, sb_near *near)
             near->meets[a][b] = a != b && along < BENT && (one->both || other->both || before(sim, one, other)) &&
                                 (one->both || other->both || before(sim, other, one));
             near->meeting |= near->meets[a][b];
-            const bool square = fabsf(along) < 1e-3f, facing = along < -0.9f;
+            near->sectors[a][b] = near->meets[a][b] ? sectors_of(along) : 0;
+            near->blunt |= near->sectors[a][b] < 2 && near->sectors[a][b] > SB_SECTORS_LEAST;
+            const bool square = fabsf(along) < SQUARE, facing = along < -0.9f;
             /* Neighbours that bend by less do not hide each other. */
             near->oblique |= near->meets[a][b] && !square && !facing;
             near->skew |= near->meets[a][b] && !square;

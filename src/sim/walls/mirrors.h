@@ -9,6 +9,7 @@ typedef struct sb_mirror_edge {
     sb_vec3 from, to, inward;
     double distance; /* inward . x on the edge */
     sb_bend bend;
+    sb_vec3 wall; /* as sb_facet_edge.wall */
 } sb_mirror_edge;
 
 /* One facet, or an image of it beyond a periodic side, at t = 0. */
@@ -31,7 +32,8 @@ typedef struct sb_mirror_entry {
 enum { SB_NEAR_MAX = 200, SB_NEAR_EDGES_MAX = 1024 };
 
 typedef struct sb_near_edge {
-    sb_f4 inward; /* unit, in the facet's plane; last lane: inward . x on the edge */
+    sb_f4 inward; /* unit, in the facet's plane; last lane: inward . x on the edge; of a concave edge: the normal of the
+                     wall that stands there, so that all water before both has no edge */
     sb_bend bend;
 } sb_near_edge;
 
@@ -44,17 +46,24 @@ typedef struct sb_near_facet {
     sb_f4 velocity; /* m/s, of the wall */
 } sb_near_facet;
 
+/* sb_near.sectors up to which facets reflect nothing of what the other has reflected: 120 degrees. */
+static const float SB_SECTORS_LEAST = 1.5f;
+
 typedef struct sb_near {
     size_t count, edge_count;
     bool simple;  /* no facet hides water or another facet */
     bool oblique; /* some path may be reflected at two facets at other than right angles */
     bool meeting; /* some path may be reflected at two facets */
     bool skew;    /* at other than right angles */
+    bool blunt;   /* some meet at more than a right angle and less than 120 degrees, seen from the water */
     bool moves;   /* a facet moves */
     bool full;    /* more than SB_NEAR_MAX facets or SB_NEAR_EDGES_MAX edges */
     sb_near_facet facet[SB_NEAR_MAX];
     sb_near_edge edges[SB_NEAR_EDGES_MAX];
     bool meets[SB_NEAR_MAX][SB_NEAR_MAX]; /* a path may be reflected at both, one after the other */
+    /* pi over the angle between facets that meet, on the water's side; 2: a right angle, INFINITY: they face each
+       other; 0: they do not meet */
+    float sectors[SB_NEAR_MAX][SB_NEAR_MAX];
 } sb_near;
 
 sb_status sb_mirrors_create(sb_sim *sim, sb_error *error);

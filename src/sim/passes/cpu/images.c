@@ -20,8 +20,10 @@ typedef struct route {
     uint32_t path;
     int depth;
     size_t last;
-    bool square; /* all facets stand at right angles to each other, so that the weight is a product of theirs */
-    bool beyond; /* one of them has no part of it */
+    bool square;  /* all facets stand at right angles to each other */
+    bool crooked; /* some meet at other angles */
+    bool beyond;  /* one of them has no part of it */
+    bool away;    /* the image is not near the group */
 } route;
 
 SB_INLINE bool within(const sb_box *box, float support, sb_f4 at)
@@ -35,15 +37,27 @@ SB_INLINE bool within(const sb_box *box, float support, sb_f4 at)
     return far2 < support * support;
 }
 
-/* Whether a path may go on to facet a. Reflections at right angles can be exchanged, so that one order is enough. */
-static bool goes_on(const sb_near *near, uint32_t path, size_t last, size_t a)
+/* Whether a path may go on to facet a. Reflections at right angles can be exchanged, so that one order is enough: that
+   in which no later facet could be moved before one of a lower number. */
+static bool goes_on(const sb_near *near, const route *from, size_t a)
 {
-    if (a == last || (sb_facets_square(near, last, a) && a > last)) return false;
-    for (; path; path >>= SB_REFLECTION_BITS) {
-        const size_t b = (path & SB_REFLECTION_MASK) - 1;
-        if (b != a && !near->meets[b][a]) return false;
+    bool exchanged = true; /* with all facets from here to the end of the path */
+    for (int k = from->depth; k-- > 0;) {
+        const size_t b = (from->path >> (SB_REFLECTION_BITS * k) & SB_REFLECTION_MASK) - 1;
+        if (b != a && !(near->meets[b][a] && near->sectors[b][a] > SB_SECTORS_LEAST)) return false;
+        exchanged &= b == a || sb_facets_square(near, b, a);
+        if (exchanged && b <= a) return false;
+        exchanged &= b != a;
     }
     return true;
+}
+
+/* Whether facet a meets one of a path at another than a right angle. */
+static bool crooked_to_any(const sb_near *near, uint32_t path, size_t a)
+{
+    bool crooked = false;
+    for (; path; path >>= SB_REFLECTION_BITS) crooked |= sb_facets_crooked(near, (path & SB_REFLECTION_MASK) - 1, a);
+    return crooked;
 }
 
 /* Whether facet a stands at right angles to all facets of a path. */
@@ -78,22 +92,24 @@ SB_APART void reflect_on(gatherer *g, uint32_t source, size_t s, const route *fr
     const sb_near *near = g->near;
     const sb_sources *of = g->sources;
     for (size_t a = 0; a < near->count && !g->full; a++) {
-        if (!goes_on(near, from->path, from->last, a) || (of->beyond[a][s] && !near->skew)) continue;
+        if (!goes_on(near, from, a) || (of->beyond[a][s] && !near->skew)) continue;
         const sb_near_facet *f = &near->facet[a];
         const float above = sb_before_facet(f, from->at);
-        if (fabsf(above) >= g->cull->support) continue;
-        const bool soft = f->edges > 0 || f->both;
-        if (above <= 0 && !(soft && sb_facets_square(near, from->last, a))) continue;
+        if (fabsf(above) >= g->cull->support || (from->away && above >= 0)) continue;
+        const bool soft = f->edges > 0 || f->both, crooked = from->crooked || crooked_to_any(near, from->path, a);
+        if (above <= 0 && !crooked && !(soft && sb_facets_square(near, from->last, a))) continue;
         const route to = {.at = sb_reflect(f->plane, from->at),
                           .path = from->path | (uint32_t)(a + 1) << (SB_REFLECTION_BITS * from->depth),
                           .depth = from->depth + 1,
                           .last = a,
                           .square = from->square && square_to_all(near, from->path, a),
-                          .beyond = from->beyond || of->beyond[a][s]};
-        /* Further reflections take an image farther away. */
-        if (!within(&g->cull->box, g->cull->support, to.at)) continue;
-        const bool misses = to.square ? to.beyond : !sb_cull_meets(near, g->cull, to.path, to.at);
-        if (!misses && !add_image(g, source, &to, false, above)) {
+                          .crooked = crooked,
+                          .beyond = from->beyond || of->beyond[a][s],
+                          .away = !within(&g->cull->box, g->cull->support, to.at)};
+        /* Further reflections take an image farther away, unless it is behind a facet: blunt corners have such ones. */
+        if (to.away && !near->blunt) continue;
+        const bool misses = to.square || crooked ? to.beyond : !sb_cull_meets(near, g->cull, to.path, to.at);
+        if (!misses && !to.away && !add_image(g, source, &to, false, above)) {
             g->full = true;
             return;
         }
@@ -109,17 +125,19 @@ SB_INLINE void reflect_at(gatherer *g, uint32_t first, size_t a)
     const sb_near_facet *f = &near->facet[a];
     const bool soft = f->edges > 0 || f->both;
     for (size_t s = 0; s < of->count && !g->full; s++) {
-        if (of->apart[a][s] || (of->beyond[a][s] && !near->skew)) continue;
+        const bool away = of->apart[a][s];
+        if ((away && !(near->blunt && of->near[s])) || (of->beyond[a][s] && !near->skew)) continue;
         const sb_f4 at = g->v->place[first + s];
         const float above = sb_before_facet(f, at);
-        if (above <= 0 && !soft) continue;
+        if ((above <= 0 && !soft) || (away && (above <= 0 || above >= g->cull->support))) continue;
         const route to = {.at = sb_reflect(f->plane, at),
                           .path = (uint32_t)(a + 1),
                           .depth = 1,
                           .last = a,
                           .square = true,
-                          .beyond = of->beyond[a][s]};
-        if (!to.beyond && !add_image(g, first + (uint32_t)s, &to, of->whole[a][s], above)) g->full = true;
+                          .beyond = of->beyond[a][s],
+                          .away = away};
+        if (!to.beyond && !away && !add_image(g, first + (uint32_t)s, &to, of->whole[a][s], above)) g->full = true;
         if (near->meeting && !g->full) reflect_on(g, first + (uint32_t)s, s, &to);
     }
 }
@@ -144,7 +162,7 @@ SB_APART void reflect_candidates(gatherer *g)
         of->x = v->x + begin, of->y = v->y + begin, of->z = v->z + begin;
         if (!sb_cull_sources(g->near, g->cull, of)) continue;
         for (size_t a = 0; a < g->near->count; a++)
-            if (of->any[a]) reflect_at(g, (uint32_t)begin, a);
+            if (of->any[a] || g->near->blunt) reflect_at(g, (uint32_t)begin, a);
     }
 }
 

@@ -1,4 +1,5 @@
 #include "sim/passes/cpu/path_weights.h"
+#include "sim/passes/cpu/path_orders.h"
 
 SB_MULTIVERSION
 uint32_t sb_about_edges(const sb_near *near, const sb_near_facet *f, sb_f4 at, float above, sb_half_angle *angle)
@@ -82,20 +83,25 @@ static bool reflect_edge(const sb_weigher *w, const size_t *by, int count, int i
     return true;
 }
 
+/* The ends of a path as an edge sees them, and how they move within it with the particle and its neighbour. */
+typedef struct sb_ends {
+    sb_f4 own, other, inward_own, inward_other;
+} sb_ends;
+
 /* Multiplies the hidden part of a path by that within one edge. hi, hj, normal: of the facet. */
-static void past_edge_of(const sb_weigher *w, const sb_near_edge *e, sb_f4 normal, float hi, float hj, sb_f4 at,
-                         sb_weight *hidden)
+static void past_edge_of(const sb_weigher *w, const sb_near_edge *e, const sb_ends *at, sb_f4 normal, float hi,
+                         float hj, sb_weight *hidden)
 {
-    const sb_f4 inward = e->inward * (sb_f4){1, 1, 1, 0};
-    const float oi = sb_within_edge(e, w->self), oj = sb_within_edge(e, at);
+    const sb_f4 keep = {1, 1, 1, 0};
+    const float oi = sb_within_edge(e, at->own), oj = sb_within_edge(e, at->other);
     float di[2] = {0}, dj[2] = {0};
     bool before = true;
     const float past = e->bend == SB_BEND_CONVEX
                            ? past_edge(sb_half_angle_of(oi, fabsf(hi)), sb_half_angle_of(oj, -fabsf(hj)), 1,
                                        w->transition, di, dj, &before)
                            : oi * fabsf(hj) + oj * fabsf(hi) < 0;
-    multiply(hidden, 1 - past, -(inward * sb_splat(di[0]) + normal * sb_splat(di[1])),
-             -(inward * sb_splat(dj[0]) + normal * sb_splat(dj[1])));
+    multiply(hidden, 1 - past, -(at->inward_own * keep * sb_splat(di[0]) + normal * sb_splat(di[1])),
+             -(at->inward_other * keep * sb_splat(dj[0]) + normal * sb_splat(dj[1])));
 }
 
 /* Part of the path by reflections at facets by[] at right angles to facet f, unfolded to a straight line from the
@@ -115,24 +121,79 @@ static sb_weight past_facet(const sb_weigher *w, const size_t *by, int count, co
         }
         for (int images = 0; images < 1 << count; images++) {
             sb_near_edge seen;
-            if (reflect_edge(w, by, count, images, e, &seen)) past_edge_of(w, &seen, normal, hi, hj, at, &hidden);
+            if (!reflect_edge(w, by, count, images, e, &seen)) continue;
+            past_edge_of(w, &seen, &(sb_ends){w->self, at, seen.inward, seen.inward}, normal, hi, hj, &hidden);
         }
     }
     for (int m = 0; m < count; m++) hidden.other = sb_reflect_vector(w->near->facet[by[m]].plane, hidden.other);
     return (sb_weight){1 - hidden.value, -hidden.own, -hidden.other};
 }
 
-sb_weight sb_past_facets(const sb_weigher *w, const size_t *by, int count, sb_f4 at, size_t *by_facet)
+/* The same of a path by one reflection at facet a, where f does not stand at a right angle to it: f and its image do
+   not lie in one plane. Edges that a leaves about where they are hide the path as they hide the straight line. */
+static sb_weight past_leaning(const sb_weigher *w, size_t a, const sb_near_facet *f, sb_f4 source)
 {
+    const sb_f4 plane = w->near->facet[a].plane;
+    const float hi = sb_before_facet(f, w->self), hj = sb_before_facet(f, source);
+    if (hi * hj >= 0) return WHOLE;
+    const sb_f4 normal = f->plane * (hi > 0 ? (sb_f4){1, 1, 1, 0} : (sb_f4){-1, -1, -1, 0});
+    sb_weight hidden = WHOLE;
+    for (uint32_t k = f->edge; k < f->edge + f->edges; k++) {
+        const sb_near_edge *e = &w->near->edges[k];
+        const float along = sb_sum3(plane * e->inward);
+        if (e->bend == SB_BEND_CONCAVE) {
+            const sb_f4 place = w->self + (source - w->self) * sb_splat(hi / (hi - hj));
+            if (sb_within_edge(e, place) < 0) return WHOLE;
+            continue;
+        }
+        const sb_ends straight = {w->self, source, e->inward, e->inward};
+        if (fabsf(along) < SB_BENT) {
+            past_edge_of(w, e, &straight, normal, hi, hj, &hidden);
+            continue;
+        }
+        sb_near_edge turned = *e;
+        turned.inward -= plane * sb_splat(2 * along);
+        const sb_ends own = {w->self, sb_reflect(plane, source), e->inward, turned.inward};
+        const sb_ends other = {sb_reflect(plane, w->self), source, turned.inward, e->inward};
+        past_edge_of(w, e, &own, normal, hi, hj, &hidden);
+        past_edge_of(w, e, &other, normal, hi, hj, &hidden);
+    }
+    return (sb_weight){1 - hidden.value, -hidden.own, -hidden.other};
+}
+
+static bool is_crooked(const sb_near *near, const size_t *by, int count)
+{
+    bool crooked = false;
+    for (int k = 1; k < count; k++)
+        for (int m = 0; m < k; m++) crooked |= sb_facets_crooked(near, by[k], by[m]);
+    return crooked;
+}
+
+/* How a facet stands to those of a path: whether it can hide the path, and whether it meets one at another than a right
+   angle. */
+static bool may_hide(const sb_weigher *w, const size_t *by, int count, size_t k, bool *leans)
+{
+    bool kept = w->near->facet[k].parts;
+    for (int m = 0; m < count && kept; m++) {
+        const bool crooked = sb_facets_crooked(w->near, by[m], k);
+        kept = k != by[m] && (crooked || sb_facets_square(w->near, by[m], k)) && w->near->meets[by[m]][k];
+        *leans |= crooked;
+    }
+    return kept;
+}
+
+sb_weight sb_past_facets(const sb_weigher *w, const size_t *by, int count, sb_f4 source, sb_f4 image, size_t *by_facet)
+{
+    const bool crooked = is_crooked(w->near, by, count);
     sb_weight least = WHOLE;
     *by_facet = SIZE_MAX;
     for (size_t k = 0; k < w->near->count; k++) {
         const sb_near_facet *g = &w->near->facet[k];
-        bool kept = g->parts;
-        for (int m = 0; m < count && kept; m++)
-            kept = k != by[m] && sb_facets_square(w->near, by[m], k) && w->near->meets[by[m]][k];
-        if (!kept) continue;
-        const sb_weight past = past_facet(w, by, count, g, at);
+        bool leans = crooked;
+        if (!may_hide(w, by, count, k, &leans)) continue;
+        const sb_weight past = !leans       ? past_facet(w, by, count, g, image)
+                               : count == 1 ? past_leaning(w, by[0], g, source)
+                                            : past_facet(w, NULL, 0, g, source);
         if (past.value >= least.value) continue;
         least = past;
         *by_facet = k;
@@ -192,18 +253,55 @@ sb_weight sb_at_facet(const sb_weigher *w, size_t a, sb_other_end j, bool *meets
     return all.value < SB_WEIGHT_LEAST ? NONE : all;
 }
 
-/* Whether a facet that reflections at facet a do not leave where it is blocks the way from one end of a leg to the
-   other. */
-SB_APART bool leg_blocked(const sb_weigher *w, size_t a, sb_f4 from, sb_f4 to)
+/* Cosine between normals from which on facets are parallel. */
+static const float PARALLEL = 0.9999f;
+
+/* The way of a path by reflection at facet a. */
+typedef struct bounce {
+    sb_f4 from, at, to; /* at: where it meets the facet's plane */
+    bool beyond;        /* beyond an edge at which the surface bends little */
+} bounce;
+
+static bounce bounce_of(const sb_weigher *w, size_t a, sb_f4 source, sb_f4 image)
+{
+    const sb_near_facet *f = &w->near->facet[a];
+    const float hi = sb_before_facet(f, w->self), hj = sb_before_facet(f, source);
+    bounce way = {.from = w->self, .at = w->self + (image - w->self) * sb_splat(hi / (hi + hj)), .to = source};
+    for (uint32_t k = f->edge; k < f->edge + f->edges; k++) {
+        const sb_near_edge *e = &w->near->edges[k];
+        way.beyond |= (e->bend == SB_BEND_SOFT || e->bend == SB_BEND_HOLLOW) && sb_within_edge(e, way.at) < 0;
+    }
+    return way;
+}
+
+/* Whether facet k does not block a path by facet a with both ends before k: the two meet in a corner that has all of
+   this path, or k continues the surface at a beyond the edge where its share of the path ends. */
+static bool lets_pass(const sb_weigher *w, size_t a, size_t k, const bounce *way)
+{
+    const sb_near_facet *g = &w->near->facet[k];
+    if (!(sb_before_facet(g, way->from) > 0 && sb_before_facet(g, way->to) > 0)) return false;
+    const float along = sb_sum3(w->near->facet[a].plane * g->plane);
+    return sb_facets_crooked(w->near, a, k) || (way->beyond && along > SB_BENT && along < PARALLEL);
+}
+
+/* Whether a facet that reflections at facet a do not leave where it is blocks one of the two legs of a path. */
+SB_APART bool leg_blocked(const sb_weigher *w, size_t a, const bounce *way, sb_f4 from, sb_f4 to)
 {
     for (size_t k = 0; k < w->near->count; k++) {
         const sb_near_facet *g = &w->near->facet[k];
         if (k == a || (sb_facets_square(w->near, a, k) && (g->parts || !w->near->meets[a][k]))) continue;
+        if (g->parts && sb_facets_crooked(w->near, a, k)) continue;
         const float s = sb_before_facet(g, from), t = sb_before_facet(g, to);
         if (!((s > w->eps && t < -w->eps) || (s < -w->eps && t > w->eps))) continue;
-        if (inside(w->near, g, from + (to - from) * sb_splat(s / (s - t)))) return true;
+        if (inside(w->near, g, from + (to - from) * sb_splat(s / (s - t))) && !lets_pass(w, a, k, way)) return true;
     }
     return false;
+}
+
+static bool bounce_blocked(const sb_weigher *w, size_t a, sb_f4 source, sb_f4 image)
+{
+    const bounce way = bounce_of(w, a, source, image);
+    return leg_blocked(w, a, &way, way.from, way.at) || leg_blocked(w, a, &way, way.at, way.to);
 }
 
 void sb_finish_path(const sb_weigher *w, const size_t *by, int count, sb_f4 source, sb_f4 image, bool meets,
@@ -211,13 +309,20 @@ void sb_finish_path(const sb_weigher *w, const size_t *by, int count, sb_f4 sour
 {
     if (w->near->simple || all->value < SB_WEIGHT_LEAST) return;
     size_t hider;
-    const sb_weight past = sb_past_facets(w, by, count, image, &hider);
+    const sb_weight past = sb_past_facets(w, by, count, source, image, &hider);
     if (hider != SIZE_MAX) sb_take_part(all, hider, past);
     if (all->value < SB_WEIGHT_LEAST || !meets || count > 1) return;
-    const sb_near_facet *f = &w->near->facet[by[0]];
-    const float hi = sb_before_facet(f, w->self), hj = sb_before_facet(f, source);
-    const sb_f4 c = w->self + (image - w->self) * sb_splat(hi / (hi + hj));
-    if (leg_blocked(w, by[0], w->self, c) || leg_blocked(w, by[0], c, source)) all->value = 0;
+    if (bounce_blocked(w, by[0], source, image)) all->value = 0;
+}
+
+/* The part that facet a has of reflections between the particle and `source`. */
+static sb_weight part_at(const sb_weigher *w, size_t a, sb_f4 source, bool *meets)
+{
+    const sb_near_facet *f = &w->near->facet[a];
+    sb_half_angle angle[SB_NEAR_EDGES_MAX];
+    const float above = sb_before_facet(f, source);
+    const sb_other_end j = {above, sb_about_edges(w->near, f, source, above, angle), angle};
+    return sb_at_facet(w, a, j, meets);
 }
 
 /* Reflections at facets at right angles to each other, in any order. */
@@ -225,14 +330,40 @@ SB_APART void reflected_squarely(const sb_weigher *w, const size_t *by, int coun
                                  sb_weight_parts *all)
 {
     bool meets = true;
-    for (int k = 0; k < count && all->value >= SB_WEIGHT_LEAST; k++) {
-        const sb_near_facet *f = &w->near->facet[by[k]];
-        sb_half_angle angle[SB_NEAR_EDGES_MAX];
-        const float above = sb_before_facet(f, source);
-        const sb_other_end j = {above, sb_about_edges(w->near, f, source, above, angle), angle};
-        sb_take_part(all, by[k], sb_at_facet(w, by[k], j, &meets));
-    }
+    for (int k = 0; k < count && all->value >= SB_WEIGHT_LEAST; k++)
+        sb_take_part(all, by[k], part_at(w, by[k], source, &meets));
     sb_finish_path(w, by, count, source, image, meets, all);
+}
+
+/* Reflections at facets of which some meet at other than right angles: each facet has the part that it has of single
+   reflections, and the order has its share. */
+SB_APART void reflected_crookedly(const sb_weigher *w, const size_t *by, int count, sb_f4 source, sb_weight_parts *all)
+{
+    bool meets = true;
+    sb_path_share share;
+    if (!sb_path_order_share(w->near, by, count, w->self, source, &share)) {
+        all->value = 0;
+        return;
+    }
+    for (int k = 0; k < count && all->value >= SB_WEIGHT_LEAST; k++) {
+        bool met = false;
+        for (int m = 0; m < k; m++) met |= by[m] == by[k];
+        if (!met) sb_take_part(all, by[k], part_at(w, by[k], source, &meets));
+    }
+    all->value *= share.value;
+    if (all->value < SB_WEIGHT_LEAST) return;
+    for (int k = 0; k < share.facets; k++) {
+        all->facet[all->count] = by[share.at[k]];
+        all->part[all->count++] = (sb_weight){share.value, share.own[k], share.other[k]};
+    }
+    if (w->near->simple) return;
+    size_t hider;
+    const sb_weight past = sb_past_facets(w, by, count, source, source, &hider);
+    if (hider != SIZE_MAX) sb_take_part(all, hider, past);
+    for (int k = 0; k < count && meets && all->value >= SB_WEIGHT_LEAST; k++) {
+        const sb_f4 image = sb_reflect(w->near->facet[by[k]].plane, source);
+        if (bounce_blocked(w, by[k], source, image)) all->value = 0;
+    }
 }
 
 /* Part of a reflection at `at` that the facet has. */
@@ -272,6 +403,11 @@ void sb_path_weight(const sb_weigher *w, const size_t *by, int count, sb_f4 sour
 {
     size_t any[SB_REFLECTIONS_MAX], ordered[SB_REFLECTIONS_MAX];
     int anys = 0, orders = 0;
+    if (is_crooked(w->near, by, count)) {
+        *all = (sb_weight_parts){.value = 1};
+        reflected_crookedly(w, by, count, source, all);
+        return;
+    }
     for (int k = 0; k < count; k++) {
         bool square_to_all = true;
         for (int m = 0; m < count; m++) square_to_all &= m == k || sb_facets_square(w->near, by[k], by[m]);

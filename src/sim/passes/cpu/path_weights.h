@@ -38,8 +38,8 @@ typedef struct sb_other_end {
 
 /* Parts of the weight of a path by facet, and their product. */
 typedef struct sb_weight_parts {
-    size_t count, facet[SB_REFLECTIONS_MAX + 1];
-    sb_weight part[SB_REFLECTIONS_MAX + 1];
+    size_t count, facet[2 * SB_REFLECTIONS_MAX + 1];
+    sb_weight part[2 * SB_REFLECTIONS_MAX + 1];
     float value;
 } sb_weight_parts;
 
@@ -55,10 +55,10 @@ SB_INLINE void sb_take_part(sb_weight_parts *all, size_t facet, sb_weight part)
    cleared if not. */
 sb_weight sb_at_facet(const sb_weigher *w, size_t a, sb_other_end j, bool *meets);
 
-/* Part of the straight line from the particle to `at` that no facet hides which has water on both sides, and which
-   reflections at the `count` facets by[] at right angles leave where it is. *by_facet: the facet that hides most,
-   SIZE_MAX if none does. */
-sb_weight sb_past_facets(const sb_weigher *w, const size_t *by, int count, sb_f4 at, size_t *by_facet);
+/* Part of the path from the particle to `source`, unfolded to a straight line to `image` by reflections at the `count`
+   facets by[] at right angles, that no facet hides which has water on both sides and meets these facets. *by_facet: the
+   facet that hides most, SIZE_MAX if none does. */
+sb_weight sb_past_facets(const sb_weigher *w, const size_t *by, int count, sb_f4 source, sb_f4 image, size_t *by_facet);
 
 /* What hides or blocks a path by reflections at right angles, after the parts of its facets. */
 void sb_finish_path(const sb_weigher *w, const size_t *by, int count, sb_f4 source, sb_f4 image, bool meets,

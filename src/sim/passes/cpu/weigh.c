@@ -178,7 +178,7 @@ void sb_images_weigh_direct(const sb_sim *sim, sb_images_around *images, sb_f4 s
         const sb_f4 place = self - (sb_f4){hits->x[k], hits->y[k], hits->z[k], 0};
         sb_weight_parts all = {.value = 1};
         size_t hider;
-        const sb_weight past = sb_past_facets(&w, NULL, 0, place, &hider);
+        const sb_weight past = sb_past_facets(&w, NULL, 0, place, place, &hider);
         if (hider == SIZE_MAX) continue;
         sb_take_part(&all, hider, past);
         set_weight(images, &all, hits, k, true);
