@@ -20,6 +20,11 @@ void sb_ranks_finish(sb_ranks *ranks)
     ranks->waited += sb_clock() - from;
 }
 
+void sb_ranks_progress(sb_ranks *ranks)
+{
+    if (ranks->transport->progress) ranks->transport->progress(ranks);
+}
+
 void sb_ranks_gather(sb_ranks *ranks, const void *own, size_t size, void *all)
 {
     if (!sb_ranks_several(ranks)) {

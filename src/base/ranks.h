@@ -1,6 +1,6 @@
 /* The processes or threads that compute one run together, and what they send to each other. A transport moves bytes;
-   all else (sums, counts, maxima, gathers of unequal sizes) is made of its three functions here. All ranks call these
-   functions in the same order. `ranks` may be NULL, or have one rank: then nothing is sent. */
+   all else (sums, counts, maxima, gathers of unequal sizes) is made of its start, finish and gather here. All ranks
+   call these functions in the same order. `ranks` may be NULL, or have one rank: then nothing is sent. */
 #ifndef SB_BASE_RANKS_H
 #define SB_BASE_RANKS_H
 
@@ -29,6 +29,9 @@ typedef struct sb_transport {
        between. */
     void (*start)(sb_ranks *ranks, const sb_parcel *send, size_t sends, const sb_parcel *receive, size_t receives);
     void (*finish)(sb_ranks *ranks);
+    /* Moves the messages between `start` and `finish` on, without waiting. By the thread that calls the others. NULL:
+       they move on their own. */
+    void (*progress)(sb_ranks *ranks);
     /* all: count * size bytes, by rank; the own ones as well. */
     void (*gather)(sb_ranks *ranks, const void *own, size_t size, void *all);
     /* Files into which all ranks write, each on its own; NULL: none. `open` opens one that exists, write_at writes at a
@@ -68,6 +71,7 @@ static inline int sb_ranks_count(const sb_ranks *ranks)
    of sb_ranks_start at both ends. */
 void sb_ranks_start(sb_ranks *ranks, const sb_parcel *send, size_t sends, const sb_parcel *receive, size_t receives);
 void sb_ranks_finish(sb_ranks *ranks);
+void sb_ranks_progress(sb_ranks *ranks);
 void sb_ranks_gather(sb_ranks *ranks, const void *own, size_t size, void *all);
 
 /* Sums, counts and largest values are merged in log2(number of ranks) exchanges of pairs of ranks, so that a rank sends

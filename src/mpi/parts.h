@@ -35,7 +35,7 @@ typedef struct world {
     /* Of the exchange in progress: requests, and the rank of each. */
     MPI_Request *requests;
     int *partners, *done;
-    size_t request_count, request_capacity, partner_capacity, done_capacity;
+    size_t request_count, left, request_capacity, partner_capacity, done_capacity; /* left: not complete */
     /* Orders. */
     uint64_t order;     /* number of orders so far */
     uint64_t failed_at; /* the order that failed last in this rank; 0: none */

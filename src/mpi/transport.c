@@ -37,6 +37,24 @@ static void start(sb_ranks *ranks, const sb_parcel *send, size_t sends, const sb
     w->request_count = 0;
     for (size_t k = 0; k < receives; k++) begin(w, &receive[k], false);
     for (size_t k = 0; k < sends; k++) begin(w, &send[k], true);
+    w->left = w->request_count;
+}
+
+/* Returns the number of requests that are complete now and were not before. */
+static int look(world *w)
+{
+    int count = 0;
+    sb_world_check(w, MPI_Testsome((int)w->request_count, w->requests, &count, w->done, MPI_STATUSES_IGNORE),
+                   "exchange");
+    if (count == MPI_UNDEFINED) count = (int)w->left; /* none is active */
+    w->left -= (size_t)count;
+    return count;
+}
+
+static void progress(sb_ranks *ranks)
+{
+    world *w = ranks->context;
+    if (w->left > 0) look(w);
 }
 
 /* A rank whose message is not complete. */
@@ -51,14 +69,8 @@ static void finish(sb_ranks *ranks)
 {
     world *w = ranks->context;
     wait state = {0};
-    size_t left = w->request_count;
-    while (left > 0) {
-        int count = 0;
-        sb_world_check(w, MPI_Testsome((int)w->request_count, w->requests, &count, w->done, MPI_STATUSES_IGNORE),
-                       "exchange");
-        if (count == MPI_UNDEFINED) break;
-        left -= (size_t)count;
-        if (count > 0)
+    while (w->left > 0) {
+        if (look(w) > 0)
             state = (wait){0}; /* the deadline counts from the last message that came */
         else
             sb_world_idle(w, &state, find_late(w));
@@ -84,6 +96,7 @@ static void gather(sb_ranks *ranks, const void *own, size_t size, void *all)
 const sb_transport sb_world_transport = {.name = "mpi",
                                          .start = start,
                                          .finish = finish,
+                                         .progress = progress,
                                          .gather = gather,
                                          .open = sb_world_open,
                                          .write_at = sb_world_write_at,

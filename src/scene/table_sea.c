@@ -110,6 +110,7 @@ static const sb_key keys[] = {
     {.name = "datum", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_given_sea, datum), .unit = "m", SB_KEY_ANY,
      .applies = TABLE, .only = "source table", .derived = "`level`", .doc = "z of the table's surface 0."},
     {.name = "zero", .type = SB_KEY_PLACE, SB_KEY_AT(sb_given_sea, zero), .unit = "m", SB_KEY_ANY, .applies = TABLE,
+     .flags = SB_KEY_LATER,
      .only = "source table", .derived = "[0, 0]",
      .doc = "Place [x, y] of the table that is (0, 0) of the scene, as `origin` of a terrain; [x] in 2D."},
     {.name = "plane", .type = SB_KEY_NAME, SB_KEY_AT(sb_given_sea, plane), .flags = SB_KEY_REQUIRED,

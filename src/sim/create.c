@@ -278,6 +278,7 @@ size_t sb_sim_bytes(const sb_sim *sim)
     bytes += sim->work.pairs.capacity * sizeof *sim->work.pairs.four + sim->work.wall_pairs.capacity * 8;
     bytes += sb_cells_bytes(&sim->ghosts.halo_cells) + sb_domains_bytes(sim->domains);
     bytes += sb_strip_bytes(sim) + sb_foam_bytes(sim->foam);
+    bytes += sim->groups.order_capacity * sizeof *sim->groups.order;
     bytes += sim->groups.capacity * sizeof *sim->groups.group + sim->groups.room * sizeof *sim->groups.run;
     bytes += sim->groups.images_room * sizeof *sim->groups.image + sim->groups.planes_room * sizeof *sim->groups.plane;
     bytes += sim->work.edge_pairs.capacity * sizeof *sim->work.edge_pairs.pair + sb_mirrors_bytes(sim);

@@ -189,8 +189,7 @@ static pid_t start(const char *const *arguments, bool has_reader)
     const char *program = command_of(arguments, list);
     setenv("OMP_NUM_THREADS", "1", 1);
     setenv("OMP_WAIT_POLICY", "passive", 1);
-    /* A sanitizer's table would be mixed with the program's messages. MPI leaves blocks behind. */
-    setenv("LSAN_OPTIONS", ranks ? "detect_leaks=0" : "print_suppressions=0", 1);
+    setenv("LSAN_OPTIONS", "print_suppressions=0", 1); /* a table would be mixed with the program's messages */
     fflush(NULL);
     pid_t process = fork();
     assert_true(process >= 0);
@@ -199,6 +198,7 @@ static pid_t start(const char *const *arguments, bool has_reader)
         redirect("stdout.txt", STDOUT_FILENO);
         redirect("stderr.txt", STDERR_FILENO);
         if (!has_reader) redirect_to_closed_pipe();
+        if (ranks || getenv("PMI_SIZE")) mpirun_tell_sanitizers();
         if (processes_most > 0) change_user(list);
         if (chdir(folder) == 0) execv(program, list);
         _exit(99);

@@ -105,7 +105,7 @@ static void a_rank_that_fails_alone_ends_all(void **state)
 
 int main(void)
 {
-    setenv("LSAN_OPTIONS", "detect_leaks=0", 1); /* MPI leaves blocks behind */
+    mpirun_tell_sanitizers();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(messages_orders_and_signals_arrive), cmocka_unit_test(one_rank_is_alone),
         cmocka_unit_test(a_rank_that_dies_ends_all),          cmocka_unit_test(a_silent_rank_ends_all),

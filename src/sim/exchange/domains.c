@@ -77,6 +77,7 @@ sb_status sb_domains_agree(const sb_sim *sim, sb_status own, sb_error *error)
     const outcome here = {(int32_t)own, own != SB_OK && error && error->text[0]};
     outcome all[SB_RANKS_MAX];
     int first = -1;
+    sb_domains_land(sim);
     sb_ranks_gather(ranks, &here, sizeof here, all);
     for (int r = ranks->count - 1; r >= 0; r--)
         if (all[r].status != SB_OK && (first < 0 || all[r].explained || !all[first].explained)) first = r;
@@ -90,23 +91,37 @@ sb_status sb_domains_agree(const sb_sim *sim, sb_status own, sb_error *error)
 
 static void sum(const sb_sim *sim, sb_exact *values, size_t count)
 {
+    sb_domains_land(sim);
     sb_ranks_sum(sim->ranks, values, count);
 }
 
 static double sum_and_largest(const sb_sim *sim, sb_exact *values, size_t count, double value)
 {
     _Static_assert((int)SB_SUMS_MAX <= (int)SB_RANKS_SUMS, "sums of one gather");
+    sb_domains_land(sim);
     return sb_ranks_sum_and_largest(sim->ranks, values, count, value);
 }
 
 static void sum_counts(const sb_sim *sim, uint64_t *values, size_t count)
 {
+    sb_domains_land(sim);
     sb_ranks_add(sim->ranks, values, count);
 }
 
 static double largest(const sb_sim *sim, double value)
 {
+    sb_domains_land(sim);
     return sb_ranks_largest(sim->ranks, value);
+}
+
+static bool under_way(const sb_sim *sim)
+{
+    return sim->domains->under_way;
+}
+
+static void progress(const sb_sim *sim)
+{
+    sb_ranks_progress(sim->ranks);
 }
 
 const sb_exchange sb_exchange_domains = {
@@ -115,6 +130,10 @@ const sb_exchange sb_exchange_domains = {
     .make_ghosts = sb_domains_make_ghosts,
     .balance = sb_domains_balance,
     .refresh = sb_domains_refresh,
+    .begin = sb_domains_begin,
+    .under_way = under_way,
+    .progress = progress,
+    .land = sb_domains_land,
     .sum = sum,
     .sum_and_largest = sum_and_largest,
     .count = sum_counts,

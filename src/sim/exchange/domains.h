@@ -37,6 +37,8 @@ typedef struct sb_domains {
     uint64_t cuts;     /* made anew, so far */
     double imbalance;  /* largest load over the mean, less 1, when it was last counted */
     sb_halo_plan plan;
+    bool under_way; /* a refresh: that of `flight` */
+    sb_halo flight;
 
     /* buffers */
     uint64_t *row;             /* ranks + 1: numbers for the others */
@@ -109,5 +111,8 @@ size_t sb_domains_readers(const sb_sim *sim, sb_record at, int rank[SB_RANKS_MAX
 /* halo.c */
 sb_status sb_domains_make_ghosts(sb_sim *sim, sb_error *error);
 void sb_domains_refresh(const sb_sim *sim, const sb_halo *halo);
+void sb_domains_begin(const sb_sim *sim, const sb_halo *halo);
+/* Ends the refresh that is under way, if one is. */
+void sb_domains_land(const sb_sim *sim);
 
 #endif

@@ -13,10 +13,21 @@ static sb_halo halo_of(const sb_sim *sim, void *field, size_t size)
                      .size = size};
 }
 
+static void begin(const sb_sim *sim, const sb_halo *halo)
+{
+    (sim->exchange->begin ? sim->exchange->begin : sim->exchange->refresh)(sim, halo);
+}
+
 void sb_refresh(const sb_sim *sim, sb_f4 *field)
 {
     const sb_halo halo = halo_of(sim, field, sizeof *field);
     sim->exchange->refresh(sim, &halo);
+}
+
+void sb_refresh_begin(const sb_sim *sim, sb_f4 *field)
+{
+    const sb_halo halo = halo_of(sim, field, sizeof *field);
+    begin(sim, &halo);
 }
 
 void sb_refresh_values(const sb_sim *sim, float *field)
@@ -39,15 +50,26 @@ void sb_refresh_owners_values(const sb_sim *sim, float *field)
     sim->exchange->refresh(sim, &halo);
 }
 
-void sb_refresh_carried(sb_sim *sim, const float *values)
+static sb_halo carried(const sb_sim *sim, const float *values)
 {
     enum { LAST_LANE = 3 * sizeof(float) };
-    const sb_halo halo = {.owned = values,
-                          .ghosts = (char *)(sim->state.position + sim->state.n) + LAST_LANE,
-                          .owned_stride = sizeof *values,
-                          .ghost_stride = sizeof *sim->state.position,
-                          .size = sizeof *values};
+    return (sb_halo){.owned = values,
+                     .ghosts = (char *)(sim->state.position + sim->state.n) + LAST_LANE,
+                     .owned_stride = sizeof *values,
+                     .ghost_stride = sizeof *sim->state.position,
+                     .size = sizeof *values};
+}
+
+void sb_refresh_carried(sb_sim *sim, const float *values)
+{
+    const sb_halo halo = carried(sim, values);
     sim->exchange->refresh(sim, &halo);
+}
+
+void sb_refresh_carried_begin(sb_sim *sim, const float *values)
+{
+    const sb_halo halo = carried(sim, values);
+    begin(sim, &halo);
 }
 
 sb_status sb_stage_ghosts(sb_sim *sim, sb_error *error)

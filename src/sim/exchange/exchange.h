@@ -27,6 +27,13 @@ typedef struct sb_exchange {
      * anew. NULL: there is one. */
     void (*balance)(sb_sim *sim, bool found);
     void (*refresh)(const sb_sim *sim, const sb_halo *halo);
+    /* Begins a refresh, which `land` ends; every other function here ends it first. The values of the owned particles
+       may change in between, the ghosts may not be read. */
+    void (*begin)(const sb_sim *sim, const sb_halo *halo); /* NULL, as the next three: values are there at once */
+    /* Whether a refresh is under way. */
+    bool (*under_way)(const sb_sim *sim);
+    void (*progress)(const sb_sim *sim); /* sb_ranks_progress */
+    void (*land)(const sb_sim *sim);
     /* Adds up exact sums, and counts, of all domains. */
     void (*sum)(const sb_sim *sim, sb_exact *values, size_t count);
     /* Adds up at most SB_SUMS_MAX sums, and returns the largest value. */
@@ -45,8 +52,11 @@ void sb_ghosts_destroy(sb_sim *sim);
 /* Refresh the ghosts of a field: the entries after the owned ones. */
 void sb_refresh(const sb_sim *sim, sb_f4 *field);
 void sb_refresh_values(const sb_sim *sim, float *field);
+/* Begins to refresh the ghosts of a field for the pass over groups that comes next (sim/passes/groups.h). */
+void sb_refresh_begin(const sb_sim *sim, sb_f4 *field);
 /* Sets the last lanes of the ghosts' positions to the values of their originals. */
 void sb_refresh_carried(sb_sim *sim, const float *values);
+void sb_refresh_carried_begin(sb_sim *sim, const float *values);
 /* Refresh only what sb_entry_owner leads to: the particles of other domains. */
 void sb_refresh_owners(const sb_sim *sim, sb_f4 *field);
 void sb_refresh_owners_values(const sb_sim *sim, float *field);

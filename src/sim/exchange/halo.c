@@ -71,6 +71,12 @@ static void pack_16(sb_run run, const sb_halo *halo, char *out)
     memcpy(out, (const char *)halo->owned + run.begin * sizeof(sb_f4), run.count * sizeof(sb_f4));
 }
 
+/* Whether what is received needs no other place on its way. */
+static bool arrives_in_place(const sb_halo *halo)
+{
+    return halo->ghost_stride == halo->size;
+}
+
 /* Packs the values for all ranks. Returns the number of parcels. */
 static size_t make_parcels(const sb_domains *d, const sb_halo *halo)
 {
@@ -89,11 +95,11 @@ static size_t make_parcels(const sb_domains *d, const sb_halo *halo)
     return parcels;
 }
 
-void sb_domains_refresh(const sb_sim *sim, const sb_halo *halo)
+void sb_domains_begin(const sb_sim *sim, const sb_halo *halo)
 {
-    const sb_domains *d = sim->domains;
-    const bool in_place = halo->ghost_stride == halo->size;
-    char *in = in_place ? halo->ghosts : d->in;
+    sb_domains *d = sim->domains;
+    sb_domains_land(sim);
+    char *in = arrives_in_place(halo) ? halo->ghosts : d->in;
     const size_t sends = make_parcels(d, halo);
     size_t receives = 0, at = 0;
     for (int r = 0; r < d->ranks->count; r++) {
@@ -102,9 +108,25 @@ void sb_domains_refresh(const sb_sim *sim, const sb_halo *halo)
         at += size;
     }
     sb_ranks_start(d->ranks, d->send, sends, d->receive, receives);
+    d->flight = *halo;
+    d->under_way = true;
+}
+
+void sb_domains_land(const sb_sim *sim)
+{
+    sb_domains *d = sim->domains;
+    const sb_halo *halo = &d->flight;
+    if (!d->under_way) return;
     sb_ranks_finish(d->ranks);
-    const size_t apart = in_place ? 0 : sim->ghosts.halo;
+    d->under_way = false;
+    const size_t apart = arrives_in_place(halo) ? 0 : sim->ghosts.halo;
 #pragma omp parallel for schedule(static)
-    for (size_t k = 0; k < apart; k++) memcpy((char *)halo->ghosts + k * halo->ghost_stride, in + 4 * k, 4);
+    for (size_t k = 0; k < apart; k++) memcpy((char *)halo->ghosts + k * halo->ghost_stride, d->in + 4 * k, 4);
     sb_images_refresh(sim, halo);
+}
+
+void sb_domains_refresh(const sb_sim *sim, const sb_halo *halo)
+{
+    sb_domains_begin(sim, halo);
+    sb_domains_land(sim);
 }

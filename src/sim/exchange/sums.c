@@ -15,17 +15,20 @@ double sb_sum_groups(sb_sim *sim, size_t count, sb_group_terms *of, double *tota
     const size_t groups = sim->groups.count;
     sb_exact sum[SB_SUMS_MAX] = {0};
     double largest = -(double)INFINITY;
-#pragma omp parallel reduction(max : largest)
+#pragma omp parallel
     {
         sb_exact own[SB_SUMS_MAX] = {0};
+        double most = -(double)INFINITY; /* a reduction may begin with the least finite value */
 #pragma omp for schedule(static) nowait
         for (size_t g = 0; g < groups; g++) {
             double terms[SB_SUMS_MAX] = {0};
             const double found = of(sim, &sim->groups.group[g], terms);
-            largest = found > largest ? found : largest;
+            most = found > most ? found : most;
             for (size_t k = 0; k < count; k++) sb_exact_add(&own[k], terms[k]);
         }
         sb_sums_merge(sum, own, count);
+#pragma omp critical(sb_sums_largest)
+        largest = most > largest ? most : largest;
     }
     largest = sim->exchange->sum_and_largest(sim, sum, count, largest);
     for (size_t k = 0; k < count; k++) total[k] = sb_exact_value(&sum[k]);

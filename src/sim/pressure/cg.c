@@ -110,7 +110,7 @@ static sb_status solve(sb_sim *sim, sb_error *error)
         sums s = sum_all(sim);
         bool chopped = s.chopped > s.free;
         if (chopped) aim(sim, true, 0);
-        sb_pressure_load(sim, sim->work.direction);
+        sb_pressure_load_begin(sim, sim->work.direction);
         sb_pressure_product(sim, sim->work.product);
         s = sum_all(sim);
         if (!(s.curvature > 0)) { /* no further descent */
@@ -130,7 +130,7 @@ static sb_status solve(sb_sim *sim, sb_error *error)
         }
         judged = sb_pressure_judge(sim);
     }
-    sb_pressure_load(sim, sim->work.unknown);
+    sb_pressure_load_begin(sim, sim->work.unknown);
     sb_pressure_accelerate(sim);
     return SB_OK;
 }

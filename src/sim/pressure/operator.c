@@ -5,13 +5,25 @@
 #include "sim/sea/strip.h"
 #include "sim/simulation.h"
 
-void sb_pressure_load(sb_sim *sim, const float *argument)
+/* Puts the values into the records of the owned particles. */
+static void load_owned(sb_sim *sim, const float *argument)
 {
     const size_t n = sim->state.n;
     sb_record *position = sim->state.position;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) sb_carry(&position[i], argument[i]);
+}
+
+void sb_pressure_load(sb_sim *sim, const float *argument)
+{
+    load_owned(sim, argument);
     sb_refresh_carried(sim, argument);
+}
+
+void sb_pressure_load_begin(sb_sim *sim, const float *argument)
+{
+    load_owned(sim, argument);
+    sb_refresh_carried_begin(sim, argument);
 }
 
 void sb_pressure_diverge(sb_sim *sim, float *out)
@@ -29,14 +41,14 @@ void sb_pressure_accelerate(sb_sim *sim)
 void sb_pressure_product(sb_sim *sim, float *out)
 {
     sb_pressure_accelerate(sim);
-    sb_refresh(sim, sim->work.acceleration);
+    sb_refresh_begin(sim, sim->work.acceleration);
     sb_pressure_diverge(sim, out);
 }
 
 void sb_pressure_residual(sb_sim *sim)
 {
     const size_t n = sim->state.n;
-    sb_pressure_load(sim, sim->work.unknown);
+    sb_pressure_load_begin(sim, sim->work.unknown);
     sb_pressure_product(sim, sim->work.residual);
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) sim->work.residual[i] -= sim->work.source[i];

@@ -49,6 +49,7 @@ sb_status sb_stage_source(sb_sim *sim, sb_error *error)
     (void)error;
     const double rest = (double)sim->constant.rest_density;
     double excess;
+    sb_refresh_begin(sim, sim->work.predicted);
     sim->passes->diverge(sim, sim->work.predicted, 1, sim->work.source);
     const double worst = sb_sum_groups(sim, 1, source_group, &excess);
     sim->report.compression = sim->work.everywhere ? excess / ((double)sim->work.everywhere * rest) : 0;

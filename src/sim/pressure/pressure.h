@@ -35,6 +35,8 @@ double sb_pressure_spectrum(const sb_sim *sim);
 
 /* Copies a field into the last lane of the records: the argument of the next product. */
 void sb_pressure_load(sb_sim *sim, const float *argument);
+/* The same for the pass over groups that comes next: that of other domains is still on its way. */
+void sb_pressure_load_begin(sb_sim *sim, const float *argument);
 /* The first pass of a product: acceleration = G argument, 0 for particles that are held to a given sea. */
 void sb_pressure_accelerate(sb_sim *sim);
 /* The second pass of a product: out = dt^2 [sum_j m (a_i - a_j) . grad W_ij + a_i . B_i]. The accelerations of the

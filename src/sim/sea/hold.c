@@ -124,7 +124,6 @@ sb_status sb_stage_hold(sb_sim *sim, sb_error *error)
         sim->work.predicted[h->particle] = h->given;
         sim->work.diagonal[h->particle] = 0;
     }
-    sb_refresh(sim, sim->work.predicted);
     return SB_OK;
 }
 

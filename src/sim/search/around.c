@@ -23,9 +23,34 @@ int sb_groups_build(sb_sim *sim)
     return 0;
 }
 
+/* A run may begin with owned particles and go on with ghosts. */
+static bool reads_ghosts(const sb_sim *sim, const sb_group *group)
+{
+    const sb_run *run = sim->groups.run + group->run;
+    for (size_t r = 0; r < group->runs; r++)
+        if (run[r].begin + run[r].count > sim->state.n) return true;
+    return false;
+}
+
+int sb_groups_order(sb_sim *sim)
+{
+    sb_groups *g = &sim->groups;
+    if (sb_grow((void **)&g->order, &g->order_capacity, g->count + 1, sizeof *g->order) != 0) return -1;
+    size_t inner = 0, outer = g->count;
+    for (size_t k = 0; k < g->count; k++) {
+        if (reads_ghosts(sim, &g->group[k]))
+            g->order[--outer] = (uint32_t)k;
+        else
+            g->order[inner++] = (uint32_t)k;
+    }
+    g->inner = inner;
+    return 0;
+}
+
 void sb_groups_destroy(sb_sim *sim)
 {
     sb_free(sim->groups.group);
+    sb_free(sim->groups.order);
     sb_free(sim->groups.run);
     sb_free(sim->groups.image);
     sb_free(sim->groups.plane);

@@ -243,6 +243,8 @@ SB_INLINE uint32_t sb_around_count(const sb_sim *sim, const sb_group *group)
 
 /* Divides the particles into groups; does not find the records around them. Returns 0, or -1 without memory. */
 int sb_groups_build(sb_sim *sim);
+/* After the search: orders the groups by whether they read ghosts. Returns 0, or -1 without memory. */
+int sb_groups_order(sb_sim *sim);
 void sb_groups_destroy(sb_sim *sim);
 
 #endif

@@ -38,6 +38,8 @@ typedef struct sb_group {
 typedef struct sb_groups {
     sb_group *group;
     size_t count, capacity;
+    uint32_t *order; /* several domains: indices of the groups, first the `inner` ones, which read no ghosts */
+    size_t inner, order_capacity;
     sb_run *run;
     size_t used, room; /* runs */
     sb_image *image;

@@ -1,6 +1,5 @@
 #include "sim/terms/sponge.h"
 
-#include "sim/exchange/exchange.h"
 #include "sim/exchange/sums.h"
 #include "sim/step/ledger.h"
 
@@ -45,7 +44,6 @@ sb_status sb_stage_sponge(sb_sim *sim, sb_error *error)
     const size_t n = sim->state.n;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) sim->work.predicted[i] += change_of(sim, i);
-    sb_refresh(sim, sim->work.predicted);
     return SB_OK;
 }
 

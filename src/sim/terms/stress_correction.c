@@ -60,7 +60,7 @@ sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
 {
     sim->passes->strain(sim);
     sb_refresh(sim, sim->work.strain);
-    sb_pressure_load(sim, sim->work.strain_xx);
+    sb_pressure_load_begin(sim, sim->work.strain_xx);
     sb_work_enter(&sim->work, SB_PHASE_STRESS);
     if (find_stress(sim) != 0) return sb_fail_memory(error, "means of the strain of the particle packing");
     sb_refresh(sim, sim->work.stress);

@@ -1,7 +1,6 @@
 #include "sim/terms/surface_tension.h"
 
 #include "base/memory.h"
-#include "sim/exchange/exchange.h"
 #include "sim/exchange/sums.h"
 #include "sim/step/ledger.h"
 #include "sim/terms/nodes.h"
@@ -172,7 +171,6 @@ sb_status sb_stage_surface_tension(sb_sim *sim, sb_error *error)
         sim->work.pull[i] = (sb_f4){(float)(own * sum[0]), (float)(own * sum[1]), (float)(own * sum[2]), 0};
         sim->work.predicted[i] += sim->work.pull[i] * dt;
     }
-    sb_refresh(sim, sim->work.predicted);
     return SB_OK;
 }
 

@@ -1,6 +1,5 @@
 /* The stage forces: v* = v + dt (g + Monaghan viscosity [S16, eq. 14] + physical and eddy viscosity + wall friction and
    wall shear). */
-#include "sim/exchange/exchange.h"
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
 #include "sim/step/stages.h"
@@ -25,8 +24,7 @@ sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
     (void)error;
     const sb_viscous viscous = factors_of(sim);
     const sb_wall_drag law = sb_wall_drag_make(sim);
-    if (viscous.on) sb_pressure_load(sim, sim->work.density);
+    if (viscous.on) sb_pressure_load_begin(sim, sim->work.density);
     sim->passes->forces(sim, &viscous, &law);
-    sb_refresh(sim, sim->work.predicted);
     return SB_OK;
 }

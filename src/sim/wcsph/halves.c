@@ -69,7 +69,7 @@ sb_status sb_stage_wcsph_rates(sb_sim *sim, sb_error *error)
         sim->work.unknown[i] = pressure_of(sim, sim->state.excess[i]) / (density * density);
     }
     sb_refresh_owners_values(sim, sim->work.unknown);
-    sb_pressure_load(sim, sim->work.unknown);
+    sb_pressure_load_begin(sim, sim->work.unknown);
     sim->passes->accelerate(sim);
     if (sim->needs.dynamic_walls) sb_boundary_accelerate(sim);
     if (numerics->kernel_correction == SB_CORRECTION_CSPM) {
@@ -80,7 +80,7 @@ sb_status sb_stage_wcsph_rates(sb_sim *sim, sb_error *error)
         for (size_t i = 0; i < n; i++) sim->work.rate[i] -= sim->work.wall[i][3];
     }
     if (!(numerics->density_diffusion > 0)) return SB_OK;
-    sb_pressure_load(sim, sim->state.excess);
+    sb_pressure_load_begin(sim, sim->state.excess);
     sb_wcsph_diffuse(sim);
     return SB_OK;
 }
