@@ -41,8 +41,8 @@ static void a_plane_has_no_pattern(void **state)
     sb_camera_key key = {.eye = sb_vec(-12, 26, 22), .target = sb_vec(0, 0, 0), .fov = 40};
     sb_camera camera = {.name = "front", .key_count = 1, .keys = &key};
     sb_scene scene = {.fluid = {.gravity = 9.81}};
-    scene.render = (sb_render_settings){.width = WIDTH, .height = HEIGHT, .speed_max = 10, .camera_count = 1,
-                                        .cameras = &camera, .shadows = true};
+    scene.render = (sb_render_settings){
+        .width = WIDTH, .height = HEIGHT, .speed_max = 10, .camera_count = 1, .cameras = &camera, .shadows = true};
     sb_model model = {.min = sb_vec(-20, -20, -20), .max = sb_vec(20, 20, 20)};
     sb_error error = {0};
     sb_renderer *renderer = NULL;
