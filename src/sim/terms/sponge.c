@@ -1,5 +1,6 @@
 #include "sim/terms/sponge.h"
 
+#include "sim/exchange/exchange.h"
 #include "sim/exchange/sums.h"
 #include "sim/step/ledger.h"
 
