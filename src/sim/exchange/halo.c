@@ -115,8 +115,8 @@ void sb_domains_begin(const sb_sim *sim, const sb_halo *halo)
 void sb_domains_land(const sb_sim *sim)
 {
     sb_domains *d = sim->domains;
+    if (!d || !d->under_way) return; /* none yet: the creation has failed here or in another domain */
     const sb_halo *halo = &d->flight;
-    if (!d->under_way) return;
     sb_ranks_finish(d->ranks);
     d->under_way = false;
     const size_t apart = arrives_in_place(halo) ? 0 : sim->ghosts.halo;

@@ -1,4 +1,5 @@
 /* The choice of the time step [S16, eqs. 10-12] (docs/method.md, section 8). */
+#include "physics/sponge.h"
 #include "sim/simulation.h"
 #include "sim/step/stages.h"
 #include "sim/walls/absorber.h"
@@ -37,13 +38,23 @@ static const double VISCOUS_STEP = 0.07;
    a quantum it never moves. */
 static const double SLOWEST = 1e-3;
 
+/* Of all viscous sponges, which may overlap; m2/s. */
+static double sponge_viscosity(const sb_scene *scene, const sb_constants *c)
+{
+    double alpha = 0;
+    for (size_t k = 0; k < scene->sponge_count; k++)
+        if (scene->sponges[k].kind == SB_SPONGE_VISCOUS) alpha += scene->sponges[k].alpha;
+    return sb_sponge_viscosity(alpha, (double)c->support, (double)c->sound_speed, c->dimension);
+}
+
 /* The longest step that is stable for the constant viscosities. sigma damps a pair at a wall by half as much as the
    same alpha would [S16, eqs. 14, 33]. */
-static double viscous_step(const sb_numerics *n, const sb_constants *c)
+static double viscous_step(const sb_scene *scene, const sb_constants *c)
 {
+    const sb_numerics *n = &scene->numerics;
     const double artificial = (n->artificial_viscosity + 0.5 * n->wall_friction) * (double)c->support *
                               (double)c->sound_speed / (2 * (c->dimension + 2));
-    const double nu = artificial + (double)c->viscosity, spacing = (double)c->spacing;
+    const double nu = artificial + (double)c->viscosity + sponge_viscosity(scene, c), spacing = (double)c->spacing;
     return nu > 0 ? VISCOUS_STEP * spacing * spacing / nu : (double)INFINITY;
 }
 
@@ -56,14 +67,15 @@ static double capillary_step(const sb_constants *c)
 }
 
 /* The time step: the smallest of the limits by waves (times `stretched`), speed, viscosity and the scene. */
-static double longest_step(const sb_numerics *n, const sb_constants *c, double speed, double stretched)
+static double longest_step(const sb_scene *scene, const sb_constants *c, double speed, double stretched)
 {
+    const sb_numerics *n = &scene->numerics;
     double h = (double)c->support, g = (double)c->gravity;
     double bound = n->time_step_rule == SB_TIME_STEP_PAPER ? n->time_step_factor * h / g
                                                            : n->time_step_factor * h / (double)c->wave_speed;
     double dt = n->solver == SB_SOLVER_WCSPH ? sb_wcsph_longest_step(n, c, speed)
                                              : fmin(cfl_step(n, c, speed), bound * stretched);
-    dt = fmin(dt, viscous_step(n, c));
+    dt = fmin(dt, viscous_step(scene, c));
     if (c->surface_tension > 0) dt = fmin(dt, capillary_step(c));
     return n->time_step_max > 0 ? fmin(dt, n->time_step_max) : dt;
 }
@@ -71,12 +83,12 @@ static double longest_step(const sb_numerics *n, const sb_constants *c, double s
 double sb_sim_longest_step(const sb_scene *scene, const sb_model *model, double speed)
 {
     const sb_constants constants = sb_constants_of(scene, model);
-    return longest_step(&scene->numerics, &constants, speed, 1);
+    return longest_step(scene, &constants, speed, 1);
 }
 
 static double step_of(const sb_sim *sim)
 {
-    return longest_step(&sim->scene->numerics, &sim->constant, top_speed(sim), sim->policy->step_factor);
+    return longest_step(sim->scene, &sim->constant, top_speed(sim), sim->policy->step_factor);
 }
 
 static double least_step(const sb_sim *sim)

@@ -6,9 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Smallest cosine between normals of facets of which none reflects what the other has reflected: 45 degrees. */
-static const float BENT = 0.7071f;
-
 /* Cosines between normals: up to SQUARE of facets at right angles, from FACING on of those that face each other. */
 static const float SQUARE = 1e-3f, FACING = -0.9999f;
 
@@ -307,7 +304,7 @@ static void relate(const sb_sim *sim, sb_near *near)
         for (size_t b = 0; b < near->count; b++) {
             const sb_near_facet *one = &near->facet[a], *other = &near->facet[b];
             const float along = sb_sum3(one->plane * other->plane);
-            near->meets[a][b] = a != b && along < BENT && (one->both || other->both || before(sim, one, other)) &&
+            near->meets[a][b] = a != b && along < SB_BENT && (one->both || other->both || before(sim, one, other)) &&
                                 (one->both || other->both || before(sim, other, one));
             near->meeting |= near->meets[a][b];
             near->sectors[a][b] = near->meets[a][b] ? sectors_of(along) : 0;

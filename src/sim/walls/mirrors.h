@@ -46,6 +46,9 @@ typedef struct sb_near_facet {
     sb_f4 velocity; /* m/s, of the wall */
 } sb_near_facet;
 
+/* Smallest cosine between normals of facets of which none reflects what the other has reflected: 45 degrees. */
+static const float SB_BENT = 0.7071f;
+
 /* sb_near.sectors up to which facets reflect nothing of what the other has reflected: 120 degrees. */
 static const float SB_SECTORS_LEAST = 1.5f;
 

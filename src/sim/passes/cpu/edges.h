@@ -34,9 +34,6 @@ SB_INLINE bool sb_facets_square(const sb_near *near, size_t a, size_t b)
     return fabsf(sb_sum3(near->facet[a].plane * near->facet[b].plane)) < 1e-3f;
 }
 
-/* Smallest cosine between normals of facets of which none reflects what the other has reflected: 45 degrees. */
-static const float SB_BENT = 0.7071f;
-
 /* Whether two facets meet at another than a right angle, and do not face each other. */
 SB_INLINE bool sb_facets_crooked(const sb_near *near, size_t a, size_t b)
 {
