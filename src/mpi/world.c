@@ -101,7 +101,8 @@ void sb_world_idle(world *w, wait *state, int rank)
 
 /* ---- begin and end ---- */
 
-/* Begins MPI. The starter's number of this process names it in the line for one that waits too long. */
+/* Begins MPI, with a guard that sb_world_join ends. The starter's number of this process names it in the line for one
+   that waits too long. */
 static bool begin_mpi(double deadline)
 {
     char late[160];
@@ -111,7 +112,6 @@ static bool begin_mpi(double deadline)
              sb_world_started_as(), deadline);
     sb_world_guard(deadline + LIBRARY_SECONDS + (sb_world_started_as() > 0 ? LATER_SECONDS : 0), late);
     const int code = MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &provided);
-    sb_world_unguard();
     return code == MPI_SUCCESS && provided >= MPI_THREAD_FUNNELED;
 }
 
@@ -155,6 +155,7 @@ sb_status sb_world_join(double deadline, sb_world_fatal *fatal, sb_ranks **ranks
     w->deadline = deadline;
     w->fatal = fatal;
     set_up(w);
+    sb_world_unguard();
     sb_status status = SB_OK;
     const int started = sb_world_started_count();
     if (w->ranks.count == 1 && started > 1)

@@ -97,6 +97,7 @@ void sb_domains_balance(sb_sim *sim, bool found)
     sb_domains *d = sim->domains;
     const size_t ranks = (size_t)d->ranks->count;
     if (d->searches++ % SEARCHES != 0) return;
+    sb_domains_land(sim);
     uint64_t load[SB_RANKS_MAX], own = found ? load_of_all(sim) : 0, all = 0, before = 0, largest = 0;
     sb_ranks_gather(d->ranks, &own, sizeof own, load);
     for (size_t r = 0; r < ranks; r++) {

@@ -28,7 +28,7 @@ typedef struct sb_exchange {
     void (*balance)(sb_sim *sim, bool found);
     void (*refresh)(const sb_sim *sim, const sb_halo *halo);
     /* Begins a refresh, which `land` ends; every other function here ends it first. The values of the owned particles
-       may change in between, the ghosts may not be read. */
+       may not change in between, those of the ghosts may not be read. */
     void (*begin)(const sb_sim *sim, const sb_halo *halo); /* NULL, as the next three: values are there at once */
     /* Whether a refresh is under way. */
     bool (*under_way)(const sb_sim *sim);

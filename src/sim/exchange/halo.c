@@ -36,6 +36,7 @@ static sb_status make_halo(sb_sim *sim, sb_error *error)
 {
     sb_domains *d = sim->domains;
     sb_ghosts *g = &sim->ghosts;
+    sb_domains_land(sim);
     g->halo = g->lower = g->count = 0;
     int failed = sb_domains_plan_sends(sim);
     for (int r = 0; r < d->ranks->count; r++) d->row[r] = d->plan.sends[r];

@@ -172,6 +172,7 @@ sb_status sb_domains_migrate(sb_sim *sim, sb_error *error)
     sb_domains *d = sim->domains;
     const size_t ranks = (size_t)d->ranks->count, bytes = particle_bytes(&sim->state);
     size_t count = 0, arrivals = 0;
+    sb_domains_land(sim);
     if (d->recut) memcpy(d->cut, d->next, (ranks + 1) * sizeof *d->cut);
     d->recut = false;
     int failed = find_migrants(sim, &count);

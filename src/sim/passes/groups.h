@@ -8,10 +8,9 @@
 
 #include <omp.h>
 
-enum {
-    SB_GROUPS_AT_A_TIME = 8,    /* per unit of work: 600 particles where the water is deep */
-    SB_GROUPS_PER_PROGRESS = 16 /* a tenth of a millisecond of a pass of the pressure, and a look takes a microsecond */
-};
+/* Groups per unit of work: 600 particles where the water is deep, half a tenth of a millisecond of a pass of the
+   pressure. Messages are looked after once per unit, in a microsecond. */
+enum { SB_GROUPS_AT_A_TIME = 8 };
 
 /* A pass over one group. arguments: those of the pass. */
 typedef void sb_group_pass(sb_sim *sim, const sb_group *group, const void *arguments);
@@ -23,7 +22,7 @@ static inline void sb_each_group_apart(sb_sim *sim, sb_group_pass *pass, const v
     const size_t groups = g->count, inner = g->inner;
 #pragma omp parallel for schedule(dynamic, SB_GROUPS_AT_A_TIME)
     for (size_t k = 0; k < inner; k++) {
-        if (k % SB_GROUPS_PER_PROGRESS == 0 && omp_get_thread_num() == 0) sim->exchange->progress(sim);
+        if (k % SB_GROUPS_AT_A_TIME == 0 && omp_get_thread_num() == 0) sim->exchange->progress(sim);
         pass(sim, &g->group[g->order[k]], arguments);
     }
     sim->exchange->land(sim);

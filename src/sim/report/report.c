@@ -39,8 +39,10 @@ void sb_report_skipped(sb_sim *sim)
     if (!sim->needs.stress_correction)
         skip(sim, &s, "stress correction: off, no passes over particle pairs for it", CORRECTION_PASSES, 0);
     if (!sim->needs.turbulence)
-        skip(sim, &s, "turbulence: none, no strain rates and no memory for eddy viscosities", 1,
-             sim->needs.eddy ? 0 : sb_work_cost(&sim->needs, "eddy"));
+        skip(sim, &s,
+             sim->needs.eddy ? "turbulence: none, no strain rates"
+                             : "turbulence: none, no strain rates and no memory for eddy viscosities",
+             1, sim->needs.eddy ? 0 : sb_work_cost(&sim->needs, "eddy"));
     if (!sim->needs.implicit) skip(sim, &s, "pressure solve: none, the equation of state gives the pressure", 0, 0);
     if (!sim->needs.density_correction)
         skip(sim, &s, "density correction: off (density: summed), no memory for it", 0,

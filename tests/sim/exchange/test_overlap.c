@@ -23,8 +23,9 @@ enum { RANKS = 3, STEPS = 4 };
 typedef struct job {
     const ranks_made *made;
     uint64_t hash[RANKS];
-    int passes[RANKS], early[RANKS]; /* of the pressure; those that began while values were on their way */
-    double inner[RANKS];             /* share of the groups that read no ghosts */
+    int passes[RANKS],
+        early[RANKS];    /* of the pressure, viscosity and strain; those that began while values were on their way */
+    double inner[RANKS]; /* share of the groups that read no ghosts */
     sb_error error[RANKS];
 } job;
 
@@ -58,6 +59,18 @@ static void diverge(sb_sim *sim, const sb_f4 *field, float factor, float *out)
     sb_passes_choose()->diverge(sim, field, factor, out);
 }
 
+static void forces(sb_sim *sim, const sb_viscous *viscous, const sb_wall_drag *law)
+{
+    watch(sim);
+    sb_passes_choose()->forces(sim, viscous, law);
+}
+
+static void mean_strain(sb_sim *sim)
+{
+    watch(sim);
+    sb_passes_choose()->mean_strain(sim);
+}
+
 static void run(sb_ranks *ranks, void *context)
 {
     job *j = context;
@@ -66,6 +79,8 @@ static void run(sb_ranks *ranks, void *context)
     sb_passes watched = *sb_passes_choose();
     watched.accelerate = accelerate;
     watched.diverge = diverge;
+    watched.forces = forces;
+    watched.mean_strain = mean_strain;
     passes = early = 0;
     omp_set_num_threads(1);
     sb_status status = sb_sim_create(&j->made->scene, &j->made->model, ranks, &sim, &j->error[rank]);

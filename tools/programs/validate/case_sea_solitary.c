@@ -11,9 +11,10 @@ static const double HALF_WIDTH = 0.2; /* s; of the parabola at a crest */
 static const double SMOOTH = 0.3;     /* s; running mean of what is left over */
 static const double PASSED = 1.5;     /* s after the crest at the far side, from which on the wave has left */
 
+/* The wave that the scene gives, of third order. */
 static sb_solitary wave_of(const sb_scene *scene)
 {
-    return (sb_solitary){scene->given.height, scene->given.depth, scene->fluid.gravity, scene->given.theory};
+    return (sb_solitary){scene->given.height, scene->given.depth, scene->fluid.gravity, SB_SOLITARY_THIRD_ORDER};
 }
 
 /* Time at which the crest passes x, by the celerity of the theory: the front, 1e-4 of the height, is at x = 0 at t = 0.

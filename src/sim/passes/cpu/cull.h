@@ -45,8 +45,8 @@ typedef struct sb_sources {
 void sb_cull_begin(const sb_sim *sim, const sb_near *near, sb_f4 low, sb_f4 high, sb_cull *cull);
 /* Returns false if there is no image at all. */
 bool sb_cull_sources(const sb_near *near, const sb_cull *cull, sb_sources *of);
-/* Whether a path by several reflections, with this image of its source, may meet each facet that does not stand at
-   right angles to all others of the path: seen from some place in the box, within the transition beyond the facet's
+/* Whether a path by several reflections, with this image of its source, may meet each facet that faces another one of
+   the path: seen from some place in the box, within the transition beyond the facet's
    edges. */
 bool sb_cull_meets(const sb_near *near, const sb_cull *cull, uint32_t path, sb_f4 image);
 

@@ -13,8 +13,8 @@ static const float SB_TRANSITION = 0.35f;
 /* In widths: where the transition has ended. */
 static const float SB_TRANSITION_ENDS = 3.5f;
 
-/* In widths: how far from an edge a place in which a path meets a facet has all or nothing of it, where facets stand at
-   other than right angles. */
+/* In widths: how far from an edge a place in which a path meets a facet has all or nothing of it, where facets face
+ * each other. */
 static const float SB_SHARE_ENDS = 3;
 
 /* Distance before a facet's plane, within the line of one of its edges; quanta. */
@@ -41,7 +41,7 @@ SB_INLINE bool sb_facets_crooked(const sb_near *near, size_t a, size_t b)
     return sectors > 0 && sectors != 2 && sectors < INFINITY;
 }
 
-/* A position about an edge: o in the facet's plane from the edge's line, h from the plane, rho from the line. C + iS =
+/* A position about an edge: o along the edge's `inward` from its line, h from the plane, rho from the line. C + iS =
    sqrt(o + ih), on the two sheets of a half plane. */
 typedef struct sb_half_angle {
     float c, s, rho;

@@ -137,12 +137,6 @@ static sb_f4 image_by(const sb_near *near, const word *w, const uint8_t *order, 
     return at;
 }
 
-static sb_f4 image_back(const sb_near *near, const word *w, const uint8_t *order, sb_f4 at)
-{
-    for (int k = w->count; k-- > 0;) at = sb_reflect(near->facet[w->by[order[k]]].plane, at);
-    return at;
-}
-
 /* By how much a path is longer than the straight line: a quarter of the difference of the squares. */
 static float excess(sb_f4 self, sb_f4 source, sb_f4 image)
 {
@@ -150,14 +144,13 @@ static float excess(sb_f4 self, sb_f4 source, sb_f4 image)
     return 0.25f * (sb_sum3(path * path) - sb_sum3(line * line));
 }
 
-/* Adds the derivatives of an order's excess, times `scale`: by self, by the source, and by the planes of the facets
-   along their normals. */
+/* Adds the derivatives of an order's excess, times `scale`: by self, and by the planes of the facets along their
+   normals. */
 static void add_slopes(const sb_near *near, const word *w, const uint8_t *order, sb_f4 self, sb_f4 source, float scale,
-                       sb_f4 *own, sb_f4 *other, float *plane)
+                       sb_f4 *own, float *plane)
 {
     const sb_f4 image = image_by(near, w, order, source), keep = {1, 1, 1, 0};
     *own += (source - image) * keep * sb_splat(0.5f * scale);
-    *other += (self - image_back(near, w, order, self)) * keep * sb_splat(0.5f * scale);
     sb_f4 way = self - image;
     for (int k = w->count; k-- > 0;) {
         const sb_f4 normal = near->facet[w->by[order[k]]].plane;
@@ -171,11 +164,11 @@ static void add_slopes(const sb_near *near, const word *w, const uint8_t *order,
 static void find_slopes(const sb_near *near, const word *w, sb_f4 self, sb_f4 source, const shares *of,
                         const float *length, sb_path_share *out)
 {
-    sb_f4 own = {0}, other = {0};
+    sb_f4 own = {0};
     float plane[PLACES] = {0};
     for (int k = 0; k < w->orders; k++)
         if (length[k] > 0 && of->by_measure[k] != 0)
-            add_slopes(near, w, ORDER[k], self, source, 2 * length[k] * of->by_measure[k], &own, &other, plane);
+            add_slopes(near, w, ORDER[k], self, source, 2 * length[k] * of->by_measure[k], &own, plane);
     for (int k = 0; k < w->count; k++) {
         const sb_f4 normal = near->facet[w->by[k]].plane * (sb_f4){1, 1, 1, 0};
         out->at[k] = k;

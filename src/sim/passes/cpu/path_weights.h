@@ -64,8 +64,8 @@ sb_weight sb_past_facets(const sb_weigher *w, const size_t *by, int count, sb_f4
 void sb_finish_path(const sb_weigher *w, const size_t *by, int count, sb_f4 source, sb_f4 image, bool meets,
                     sb_weight_parts *all);
 
-/* Weight of a path by any facets. Facets at right angles to all others of the path come in any order; the others are
-   met one after the other. */
+/* Weight of a path by any facets. Facets that face each other are met one after the other; others in any order,
+   with the share of sb_path_order_share. */
 void sb_path_weight(const sb_weigher *w, const size_t *by, int count, sb_f4 source, sb_f4 image, sb_weight_parts *all);
 
 #endif
