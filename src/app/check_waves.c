@@ -1,6 +1,7 @@
 #include "app/check_waves.h"
 
 #include "physics/dispersion.h"
+#include "sim/sim.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -80,20 +81,20 @@ static void print_train(void *context, const sb_scene *scene, const sb_wavemaker
 }
 
 /* Viscosity at the end of a viscous sponge, m^2/s; 0 of a damping one. */
-static double viscosity_of(const sb_scene *scene, const sb_sponge *sponge)
+static double viscosity_of(const sb_scene *scene, const sb_model *model, const sb_sponge *sponge)
 {
-    const sb_numerics *n = &scene->numerics;
-    const double sound = n->sound_speed > 0 ? n->sound_speed : 10 * sqrt(scene->fluid.gravity * sponge->depth);
     if (sponge->kind != SB_SPONGE_VISCOUS) return 0;
-    return sb_sponge_viscosity(sponge->alpha, n->support * scene->resolution, sound, scene->dimensions);
+    return sb_sponge_viscosity(sponge->alpha, scene->numerics.support * scene->resolution,
+                               sb_sim_sound_speed(scene, model), scene->dimensions);
 }
 
 /* Reflected over incident amplitude by linear theory. */
-static double reflection_of(const sb_scene *scene, const sb_sponge *sponge)
+static double reflection_of(const sb_scene *scene, const sb_model *model, const sb_sponge *sponge)
 {
     if (sponge->kind == SB_SPONGE_VISCOUS)
-        return sb_sponge_viscous_reflection(sponge->profile, viscosity_of(scene, sponge), 2 * M_PI / sponge->period,
-                                            sponge->depth, scene->fluid.gravity, sponge->length);
+        return sb_sponge_viscous_reflection(sponge->profile, viscosity_of(scene, model, sponge),
+                                            2 * M_PI / sponge->period, sponge->depth, scene->fluid.gravity,
+                                            sponge->length);
     return sb_sponge_reflection(sponge->profile, sponge->strength, 2 * M_PI / sponge->period, sponge->depth,
                                 scene->fluid.gravity, sponge->length);
 }
@@ -139,7 +140,7 @@ static void put_initial(const sb_scene *scene, sb_json *json)
     sb_json_close(json);
 }
 
-void sb_check_waves_text(const sb_scene *scene)
+void sb_check_waves_text(const sb_scene *scene, const sb_model *model)
 {
     print_initial(scene);
     visit_trains(scene, print_train, NULL);
@@ -148,8 +149,8 @@ void sb_check_waves_text(const sb_scene *scene)
         const bool viscous = sponge->kind == SB_SPONGE_VISCOUS;
         printf("  sponge %s: %.3g wavelengths of %.4g m, %s %.3g %s; predicted reflection %.2g %%\n", sponge->name,
                sponge->length / wavelength_of(scene, sponge), wavelength_of(scene, sponge),
-               viscous ? "viscosity" : "strength", viscous ? viscosity_of(scene, sponge) : sponge->strength,
-               viscous ? "m^2/s" : "1/s", 100 * reflection_of(scene, sponge));
+               viscous ? "viscosity" : "strength", viscous ? viscosity_of(scene, model, sponge) : sponge->strength,
+               viscous ? "m^2/s" : "1/s", 100 * reflection_of(scene, model, sponge));
     }
 }
 
@@ -177,7 +178,7 @@ static void put_train(void *context, const sb_scene *scene, const sb_wavemaker_u
     sb_json_close(json);
 }
 
-void sb_check_waves_json(const sb_scene *scene, sb_json *json)
+void sb_check_waves_json(const sb_scene *scene, const sb_model *model, sb_json *json)
 {
     put_initial(scene, json);
     if (visit_trains(scene, NULL, NULL) > 0) {
@@ -192,10 +193,10 @@ void sb_check_waves_json(const sb_scene *scene, sb_json *json)
         sb_json_text(json, "name", scene->sponges[s].name);
         sb_json_number(json, "wavelength_m", wavelength_of(scene, &scene->sponges[s]));
         if (scene->sponges[s].kind == SB_SPONGE_VISCOUS)
-            sb_json_number(json, "viscosity_m2_s", viscosity_of(scene, &scene->sponges[s]));
+            sb_json_number(json, "viscosity_m2_s", viscosity_of(scene, model, &scene->sponges[s]));
         else
             sb_json_number(json, "strength_per_s", scene->sponges[s].strength);
-        sb_json_number(json, "predicted_reflection", reflection_of(scene, &scene->sponges[s]));
+        sb_json_number(json, "predicted_reflection", reflection_of(scene, model, &scene->sponges[s]));
         sb_json_close(json);
     }
     sb_json_close(json);

@@ -2,13 +2,14 @@
 #ifndef SB_APP_CHECK_WAVES_H
 #define SB_APP_CHECK_WAVES_H
 
+#include "geometry/model/model.h"
 #include "output/json.h"
 #include "scene/scene.h"
 
 /* Prints the wave trains: wavelength, kd, Ursell number, steepness, particles per height and length, travel; and the
    reflection that is predicted for each sponge. */
-void sb_check_waves_text(const sb_scene *scene);
+void sb_check_waves_text(const sb_scene *scene, const sb_model *model);
 /* The same as lists "waves" and "sponges" of the open object; none where there is no item. */
-void sb_check_waves_json(const sb_scene *scene, sb_json *json);
+void sb_check_waves_json(const sb_scene *scene, const sb_model *model, sb_json *json);
 
 #endif

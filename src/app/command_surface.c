@@ -69,8 +69,8 @@ static sb_status choose_format(const char *name, const sb_mesh_format **format, 
 /* How the mesh of an entry is made; the first line of its file. */
 static void describe(const job *j, size_t entry, char made[MADE_MAX])
 {
-    snprintf(made, MADE_MAX, SB_MESH_MADE ", time %.9g s, cell %g, smooth %d", j->list.entries[entry].time,
-             j->options->cell, j->options->smooth);
+    snprintf(made, MADE_MAX, SB_MESH_MADE ", " SB_MESH_METHOD ", time %.9g s, cell %g, smooth %d",
+             j->list.entries[entry].time, j->options->cell, j->options->smooth);
 }
 
 /* The mesh's path: the number of the particle file and the format's ending. */
@@ -108,7 +108,8 @@ static sb_status look_at_meshes(job *j, sb_error *error)
                            "%.500s: was not written by shorebreak surface; name another directory with --out", path);
         if (there == SB_MESH_DIFFERENT && !j->options->overwrite)
             return sb_fail(error, SB_BAD_INPUT,
-                           "%.500s: was made with other options or from another run; expected --overwrite or another "
+                           "%.500s: was made with other options, by another version or from another run; expected "
+                           "--overwrite or another "
                            "directory with --out",
                            path);
         j->chosen[i] = j->options->overwrite || there != SB_MESH_SAME || is_newer(j, i, path);

@@ -11,7 +11,7 @@ static const char inputs[] =
     "out vec4 color;\n"
     "uniform sampler2D body_colors, normals, depths, surface, cover, colors, shade, reached, occlusion, deep_colors;\n"
     "uniform vec2 clip;\n"
-    "uniform float solid, shade_bias, wet, painted, depth_max, clarity, thickest, sea_level, pixels;\n"
+    "uniform float solid, shade_bias, wet, painted, loaded, depth_max, clarity, thickest, sea_level, pixels;\n"
     "ivec2 pixel() { return ivec2(gl_FragCoord.xy); }\n"
     "float depth_at(ivec2 p) { return clip.y / (2.0 * texelFetch(depths, p, 0).x - 1.0 - clip.x); }\n"
     "vec3 ray(ivec2 p) {\n"
@@ -34,12 +34,15 @@ static const char foam[] = "#ifdef FOAM\n"
                            "vec4 foam_at(ivec2 p) { return foaming > 0.5 ? texelFetch(foam, p, 0) : vec4(0.0); }\n"
                            "#endif\n";
 
-/* Colour of a body: wet where the water has been, and with the greatest depth. */
+/* Colour of a body: wet where the water has been, and with the greatest depth. A body that moves has no place where the
+   water has been, and colours of loads stay those of their legend: of the kinds in c.a (render/meshes.h), the first
+   limit is below bodies that rest, the second below terrain. */
 static const char body[] =
     "vec3 albedo_of(ivec2 p, vec3 place, vec3 n) {\n"
     "  vec4 c = texelFetch(body_colors, p, 0);\n"
     "  vec3 albedo = c.rgb * c.rgb;\n"
     "#ifdef REACHED\n"
+    "  if (c.a < (loaded > 0.5 ? 0.75 : 0.42)) return albedo;\n"
     "  vec2 at = (place.xy - ground_frame.xy) * ground_frame.z;\n"
     "  at += n.xy * (1.0 - abs(n.z)) * 1.2 / vec2(textureSize(reached, 0));\n"
     "  float was = above(reached, at, place.z);\n"
@@ -265,6 +268,7 @@ static void draw_pass(const sb_compose *compose, const sb_parts *parts, const sb
     sb_uniform_float(program, "foaming", parts->foam != 0);
     sb_uniform_float(program, "wet", parts->wet);
     sb_uniform_float(program, "painted", parts->painted);
+    sb_uniform_float(program, "loaded", parts->loaded);
     sb_uniform_float(program, "depth_max", parts->depth_max);
     sb_uniform_float(program, "clarity", light->size / 500);
     sb_uniform_float(program, "thickest", parts->thickest);

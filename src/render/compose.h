@@ -24,8 +24,9 @@ typedef struct sb_parts {
     const sb_tops *shade;          /* the water as seen from the sun */
     double shade_bias;             /* heights of `shade` by which water does not shade itself */
     const sb_tops *reached;        /* highest water so far, m above the light's origin; NULL without the next two */
-    bool wet;                      /* ground that the water has reached is darker */
-    bool painted;                  /* paint the greatest depth on the ground */
+    bool wet;                      /* ground and bodies that the water has reached are darker */
+    bool painted;                  /* paint the greatest depth on the ground and on bodies */
+    bool loaded;                   /* bodies have colours of loads: both are on terrain only */
     double depth_max;              /* m, greatest depth at the upper end of its colours */
     double thickest;               /* m, above which the thickness of the water is unknown */
     int map;                       /* of the water's colours */

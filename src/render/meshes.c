@@ -150,7 +150,10 @@ void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const 
         else
             sb_gl.Disable(GL_CULL_FACE);
         set_shift(program, part, frame);
-        sb_uniform_float(program, "kind", part->terrain ? SB_MESHES_TERRAIN : SB_MESHES_BODY);
+        sb_uniform_float(program, "kind",
+                         part->moves     ? SB_MESHES_MOVING
+                         : part->terrain ? SB_MESHES_TERRAIN
+                                         : SB_MESHES_BODY);
         sb_gl.DrawArrays(GL_TRIANGLES, part->first_corner, part->corners);
     }
     sb_gl.Disable(GL_CULL_FACE);

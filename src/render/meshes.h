@@ -26,6 +26,7 @@ void sb_meshes_recolor(sb_meshes *meshes, const unsigned char *colors, size_t co
 void sb_meshes_draw_depth(const sb_meshes *meshes, const float clip[16]);
 
 /* Kinds of bodies in the alpha channel of the faces' colours; 0: no body. */
+#define SB_MESHES_MOVING 0.35
 #define SB_MESHES_BODY 0.5
 #define SB_MESHES_TERRAIN 1.0
 

@@ -28,8 +28,13 @@ static sb_status add_reached(sb_overhead *o, const sb_light *light, const sb_fra
     float map[3][4] = {{scale, 0, 0, ((float)shift.x - corner[0]) * scale},
                        {0, scale, 0, ((float)shift.y - corner[1]) * scale},
                        {0, 0, 1, (float)(shift.z + 0.5 * frame->spacing)}};
-    sb_tops_add(&o->reached, frame, density, 0.14f, map);
-    return sb_tops_upload_areas(&o->reached, error);
+    sb_status status = SB_OK;
+    if (o->flat)
+        sb_tops_add(&o->reached, frame, density, 0.14f, map);
+    else
+        status = sb_tops_add_areas(&o->reached, frame, density, 0.14f, map, error);
+    if (status == SB_OK) sb_tops_upload(&o->reached);
+    return status;
 }
 
 /* Finds the water as seen from the sun; heights are towards the sun. */

@@ -8,12 +8,14 @@
 /* A zeroed struct is empty. */
 typedef struct sb_overhead {
     sb_tops shade, reached;
+    bool flat; /* the scene has two dimensions: its water is one row of cells; set by the owner */
     bool begun;
     double reached_time; /* s, of the frame that was added last */
 } sb_overhead;
 
-/* Finds the shadows of the frame's water, and adds the frame to the highest water so far if `reaches` is true. A frame
-   that is earlier than the last one begins it anew. density: of the frame. The context must be current. */
+/* Finds the shadows of the frame's water, and adds the frame to the highest water so far if `reaches` is true, in three
+   dimensions without drops and rows of particles. A frame that is earlier than the last one begins it anew. density: of
+   the frame. The context must be current. */
 sb_status sb_overhead_update(sb_overhead *overhead, const sb_light *light, const sb_frame *frame,
                              const sb_density *density, bool reaches, sb_error *error);
 /* The context must be current. */

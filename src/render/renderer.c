@@ -125,6 +125,7 @@ static sb_status make_passes(sb_renderer *r, const sb_model *model, sb_error *er
     set_sides(&r->light.solid, r->scene, model);
     if (status == SB_OK) r->depth = depth_of(r);
     r->light.shadows = r->scene->render.shadows;
+    r->overhead.flat = r->scene->dimensions == 2;
     if (status == SB_OK) status = sb_water_create(r->width, r->height, &r->water, error);
     if (status == SB_OK && r->scene->render.occlusion)
         status = sb_occlusion_create(r->width, r->height, &r->occlusion, error);
@@ -186,6 +187,7 @@ static void draw_picture(sb_renderer *r, const sb_frame *frame, const sb_scenery
                             .reached = reaches ? &r->overhead.reached : NULL,
                             .wet = settings->wet_ground,
                             .painted = settings->greatest_depth,
+                            .loaded = settings->loads,
                             .depth_max = r->depth > 0 ? 0.5 * r->depth : 1,
                             .thickest = SB_SURFEL_THICKEST * frame->spacing,
                             .map = sb_fields[camera->color].map};

@@ -3,6 +3,9 @@
 
 #include "base/memory.h"
 
+#include <math.h>
+#include <stdbool.h>
+
 /* The means of four values, weighted so that they have no steps between cells. */
 const char sb_tops_source[] =
     "float between(sampler2D map, vec2 at, float from, float width) {\n"
@@ -35,13 +38,23 @@ void sb_tops_destroy(sb_tops *tops)
 {
     sb_gl.DeleteTextures(1, &tops->texture);
     sb_free(tops->top);
-    sb_free(tops->areas);
+    sb_free(tops->now);
     *tops = (sb_tops){0};
+}
+
+static size_t cells_of(const sb_tops *tops)
+{
+    return (size_t)tops->side * (size_t)tops->side;
+}
+
+static void dry(float *cells, size_t count)
+{
+    for (size_t i = 0; i < count; i++) cells[i] = SB_TOPS_DRY;
 }
 
 void sb_tops_clear(sb_tops *tops)
 {
-    for (size_t i = 0; i < (size_t)tops->side * (size_t)tops->side; i++) tops->top[i] = SB_TOPS_DRY;
+    dry(tops->top, cells_of(tops));
 }
 
 static float row_of(const float row[4], const float *p)
@@ -49,53 +62,46 @@ static float row_of(const float row[4], const float *p)
     return row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3];
 }
 
-void sb_tops_add(sb_tops *tops, const sb_frame *frame, const sb_density *density, float least, float map[3][4])
+static void raise_cells(float *cells, int count, const sb_frame *frame, const sb_density *density, float least,
+                        float map[3][4])
 {
-    const float side = (float)tops->side;
+    const float side = (float)count;
     for (size_t i = 0; i < frame->count; i++) {
         const float *p = frame->position + 3 * i;
         const float x = side * row_of(map[0], p), y = side * row_of(map[1], p);
         if (!(x >= 0 && x < side && y >= 0 && y < side)) continue;
-        float *top = &tops->top[(size_t)y * (size_t)tops->side + (size_t)x];
+        float *top = &cells[(size_t)y * (size_t)count + (size_t)x];
         const float height = row_of(map[2], p);
         /* The density is read only for the few particles that are above the earlier ones. */
         if (height > *top && sb_density_at(density, p[0], p[1], p[2]) > least) *top = height;
     }
 }
 
-static void upload(const sb_tops *tops, const float *values)
+void sb_tops_add(sb_tops *tops, const sb_frame *frame, const sb_density *density, float least, float map[3][4])
 {
-    sb_gl.BindTexture(GL_TEXTURE_2D, tops->texture);
-    sb_gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, tops->side, tops->side, 0, GL_RED, GL_FLOAT, values);
+    raise_cells(tops->top, tops->side, frame, density, least, map);
+}
+
+sb_status sb_tops_add_areas(sb_tops *tops, const sb_frame *frame, const sb_density *density, float least,
+                            float map[3][4], sb_error *error)
+{
+    const size_t side = (size_t)tops->side;
+    if (!tops->now) tops->now = sb_alloc_untouched(cells_of(tops), sizeof *tops->now);
+    if (!tops->now) return sb_fail_memory(error, "a map of the water");
+    dry(tops->now, cells_of(tops));
+    raise_cells(tops->now, tops->side, frame, density, least, map);
+    for (size_t y = 0; y + 1 < side; y++)
+        for (size_t x = 0; x + 1 < side; x++) {
+            const size_t low = y * side + x, block[4] = {low, low + 1, low + side, low + side + 1};
+            bool full = true;
+            for (int c = 0; c < 4; c++) full = full && tops->now[block[c]] > SB_TOPS_DRY;
+            for (int c = 0; full && c < 4; c++) tops->top[block[c]] = fmaxf(tops->top[block[c]], tops->now[block[c]]);
+        }
+    return SB_OK;
 }
 
 void sb_tops_upload(const sb_tops *tops)
 {
-    upload(tops, tops->top);
-}
-
-/* The number of cells with water in and around a cell. */
-static int wet_around(const sb_tops *tops, int x, int y)
-{
-    const int last = tops->side - 1;
-    int wet = 0;
-    for (int v = y > 0 ? y - 1 : y; v <= y + 1 && v <= last; v++)
-        for (int u = x > 0 ? x - 1 : x; u <= x + 1 && u <= last; u++)
-            wet += tops->top[(size_t)v * (size_t)tops->side + (size_t)u] > SB_TOPS_DRY;
-    return wet;
-}
-
-sb_status sb_tops_upload_areas(sb_tops *tops, sb_error *error)
-{
-    const int side = tops->side;
-    if (!tops->areas) tops->areas = sb_alloc_untouched((size_t)side * (size_t)side, sizeof *tops->areas);
-    if (!tops->areas) return sb_fail_memory(error, "a map of the water");
-    for (int y = 0; y < side; y++)
-        for (int x = 0; x < side; x++) {
-            const size_t cell = (size_t)y * (size_t)side + (size_t)x;
-            const float top = tops->top[cell];
-            tops->areas[cell] = top > SB_TOPS_DRY && wet_around(tops, x, y) < 4 ? SB_TOPS_DRY : top;
-        }
-    upload(tops, tops->areas);
-    return SB_OK;
+    sb_gl.BindTexture(GL_TEXTURE_2D, tops->texture);
+    sb_gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, tops->side, tops->side, 0, GL_RED, GL_FLOAT, tops->top);
 }

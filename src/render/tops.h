@@ -9,9 +9,9 @@
 
 /* A zeroed struct is empty. */
 typedef struct sb_tops {
-    int side;     /* cells on each side */
-    float *top;   /* row by row; SB_TOPS_DRY where there has been no water */
-    float *areas; /* of the texture, if it has areas only */
+    int side;   /* cells on each side */
+    float *top; /* row by row; SB_TOPS_DRY where there has been no water */
+    float *now; /* the same of one frame; NULL until sb_tops_add_areas needs it */
     GLuint texture;
 } sb_tops;
 
@@ -35,11 +35,12 @@ void sb_tops_clear(sb_tops *tops);
  */
 void sb_tops_add(sb_tops *tops, const sb_frame *frame, const sb_density *density, float least, float map[3][4]);
 
+/* The same, but only with cells in a block of 2 x 2 that all have water of this frame. Single particles and rows of
+   them leave nothing, along whatever track. */
+sb_status sb_tops_add_areas(sb_tops *tops, const sb_frame *frame, const sb_density *density, float least,
+                            float map[3][4], sb_error *error);
+
 /* Copies the map to its texture. */
 void sb_tops_upload(const sb_tops *tops);
-
-/* The same, without cells that have fewer than four cells with water among the nine around and in them: the tracks of
-   single particles. */
-sb_status sb_tops_upload_areas(sb_tops *tops, sb_error *error);
 
 #endif

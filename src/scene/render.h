@@ -101,11 +101,11 @@ typedef struct sb_render_settings {
     bool scale_bar;
     sb_vec3 north; /* horizontal; 0: no arrow */
     bool shadows, occlusion;
-    bool wet_ground;     /* ground that the water has reached is darker */
-    bool greatest_depth; /* the greatest depth so far is painted on the terrain */
-    bool loads;          /* bodies have the colour of the mean pressure on their faces */
-    double load_max;     /* Pa, at the upper end of these colours; 0: rho g D / 10 */
-    bool video;          /* join pictures to <camera>.mp4 if ffmpeg is installed */
+    bool wet_ground;     /* ground and bodies at rest that the water has reached are darker */
+    bool greatest_depth; /* the greatest depth so far is painted there, above the still water */
+    bool loads;      /* bodies have the colour of the mean pressure on their faces; the two above are on terrain only */
+    double load_max; /* Pa, at the upper end of these colours; 0: rho g D / 10 */
+    bool video;      /* join pictures to <camera>.mp4 if ffmpeg is installed */
     size_t camera_count;
     sb_camera *cameras;
 } sb_render_settings;

@@ -31,6 +31,8 @@ typedef struct sb_body_impulse {
    model; NULL: one computes it. "Together" below: all ranks call the function, in the same order and with the same
    arguments, and get the same result; with one rank it is as any other. Together. */
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_ranks *ranks, sb_sim **sim, sb_error *error);
+/* The speed of sound (m/s) of a run, of the scene or of its deepest water. */
+double sb_sim_sound_speed(const sb_scene *scene, const sb_model *model);
 /* The time step (s) for water with this maximum speed (m/s): an estimate that needs no simulation. */
 double sb_sim_longest_step(const sb_scene *scene, const sb_model *model, double speed);
 /* With walls that reflect water: places near which there are more facets of walls than the search for neighbours can

@@ -7,7 +7,10 @@
 
 #include <stdio.h>
 
-#define SB_MESH_MADE "shorebreak surface" /* how the text `made` begins */
+#define SB_MESH_MADE "shorebreak surface" /* how the text `made` begins, of meshes by any method */
+/* Names the method, so that meshes of another one are not taken for those that a call would make. Whoever changes what
+   sb_water_mesh_make finds changes it. */
+#define SB_MESH_METHOD "method 2"
 
 typedef struct sb_mesh_format {
     const char *name, *summary;

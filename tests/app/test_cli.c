@@ -218,6 +218,25 @@ static void a_lost_result_is_an_error(void **state)
     }
 }
 
+/* The viscosity of a sponge has the speed of sound of the run, 10 sqrt(9.81 m/s^2 1 m), also where the sponge's depth
+   is less. */
+static void check_knows_the_viscosity_of_the_run(void **state)
+{
+    (void)state;
+    static const char *const depths[] = {"sponges.beach.depth=0.5", "sponges.beach.depth=1"};
+    write_text("viscous.yaml",
+               "resolution: 0.1\nduration: 1\ndimensions: 2\ndomain: {min: [0, 0], max: [4, 1.5]}\n"
+               "numerics: {preset: wen, solver: wcsph, support: 3}\nwater: {level: 1, seed: [1, 0.2]}\n"
+               "sponges: [{name: beach, kind: viscous, side: x_max, length: 1, period: 1, depth: 1}]\n");
+    for (size_t i = 0; i < sizeof depths / sizeof *depths; i++) {
+        outcome o = RUN(0, "check", "viscous.yaml", "--json", "--set", depths[i]);
+        const char *at = strstr(o.out, "\"viscosity_m2_s\": ");
+        assert_non_null(at);
+        assert_near(strtod(at + strlen("\"viscosity_m2_s\": "), NULL), 0.6 * 0.3 * 10 * sqrt(9.81) / 16, 1e-4);
+        outcome_free(&o);
+    }
+}
+
 /* A scene that can run but is probably not what the user meant gives a warning in `check` and in `run`. */
 static void a_doubtful_scene_gives_a_warning(void **state)
 {
@@ -416,6 +435,7 @@ int main(void)
         cmocka_unit_test(lists_name_all_choices),
         cmocka_unit_test(check_reports_the_model),
         cmocka_unit_test(check_in_json),
+        cmocka_unit_test(check_knows_the_viscosity_of_the_run),
         cmocka_unit_test(a_lost_result_is_an_error),
         cmocka_unit_test(a_doubtful_scene_gives_a_warning),
         cmocka_unit_test(check_counts_neighbours_as_memory),

@@ -2,6 +2,7 @@
 #include "program.h"
 
 #include "base/memory.h"
+#include "surface/mesh_format.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -111,9 +112,28 @@ static void complete_meshes_are_kept(void **state)
     assert_int_equal(stat(in_folder("k/000001.ply"), &after), 0);
     assert_int_equal(before.st_ino, after.st_ino);
     o = RUN(1, "surface", "r", "--out", "k", "--cell", "0.7");
-    assert_one_line(o.err, "k/000001.ply: was made with other options or from another run; expected --overwrite");
+    assert_one_line(o.err, "k/000001.ply: was made with other options, by another version or from another run; "
+                           "expected --overwrite");
     outcome_free(&o);
     o = RUN(0, "surface", "r", "--out", "k", "--cell", "0.7", "--overwrite");
+    assert_contains(o.out, "mesh 4 of 4");
+    outcome_free(&o);
+}
+
+/* Meshes of earlier versions, whose first lines name no method, are neither kept nor replaced without being asked. */
+static void meshes_of_earlier_methods_are_not_kept(void **state)
+{
+    (void)state;
+    RUN_AND_FORGET(0, "surface", "r", "--quiet", "--out", "e");
+    char *made = text_of("e/000001.ply"), *method = strstr(made, SB_MESH_METHOD ", ");
+    assert_non_null(method);
+    memmove(method, method + strlen(SB_MESH_METHOD ", "), strlen(method + strlen(SB_MESH_METHOD ", ")) + 1);
+    write_text("e/000001.ply", made);
+    sb_free(made);
+    outcome o = RUN(1, "surface", "r", "--out", "e");
+    assert_one_line(o.err, "e/000001.ply: was made with other options, by another version");
+    outcome_free(&o);
+    o = RUN(0, "surface", "r", "--out", "e", "--overwrite");
     assert_contains(o.out, "mesh 4 of 4");
     outcome_free(&o);
 }
@@ -167,6 +187,7 @@ int main(void)
         cmocka_unit_test(vtp_files_and_their_list),
         cmocka_unit_test(any_number_of_threads),
         cmocka_unit_test(complete_meshes_are_kept),
+        cmocka_unit_test(meshes_of_earlier_methods_are_not_kept),
         cmocka_unit_test(other_files_are_not_overwritten),
         cmocka_unit_test(bad_input),
     };

@@ -39,8 +39,9 @@ static void examine_place(const sb_solitary_exact *wave, double xi, double z, vi
 static violation violation_of(const sb_solitary_exact *wave)
 {
     const double d = 1e-4, c = sb_solitary_exact_celerity(wave);
+    const double reach = fmax(8, 8 / sqrt(3 * sb_solitary_exact_elevation(wave, 0)));
     violation v = {0};
-    for (double xi = -8; xi <= 8; xi += 0.11) {
+    for (double xi = -reach; xi <= reach; xi += reach * 0.11 / 8) {
         sb_wave_motion top, bed;
         const double eta = sb_solitary_exact_elevation(wave, xi);
         const double slope =
@@ -59,13 +60,13 @@ static violation violation_of(const sb_solitary_exact *wave)
 static void the_laws_hold(void **state)
 {
     (void)state;
-    static const double heights[] = {0.01, 0.1, 0.3, 0.5, 0.6, 0.7};
+    static const double heights[] = {0.001, 0.003, 0.01, 0.1, 0.3, 0.5, 0.6, 0.7};
     for (size_t k = 0; k < sizeof heights / sizeof *heights; k++) {
         sb_solitary_exact *wave = wave_of(heights[k], 1, 1);
         const violation v = violation_of(wave);
-        printf("H/h %.2f: volume %.1e, rotation %.1e, through %.1e, energy %.1e, rates %.1e, bed %.1e\n", heights[k],
+        printf("H/h %g: volume %.1e, rotation %.1e, through %.1e, energy %.1e, rates %.1e, bed %.1e\n", heights[k],
                v.volume, v.rotation, v.through, v.energy, v.rate, v.bed);
-        const double most = heights[k] > 0.6 ? 1e-4 : 1e-5;
+        const double most = heights[k] > 0.6 ? 1e-4 : 1e-5 * fmin(1, 10 * heights[k]);
         assert_true(v.volume < most && v.rotation < most && v.through < most && v.energy < most);
         assert_true(v.rate < most && v.bed < most);
         sb_solitary_exact_destroy(wave);
@@ -76,16 +77,18 @@ static void the_laws_hold(void **state)
 static void potential_energy_follows_from_volume(void **state)
 {
     (void)state;
-    for (double height = 0.1; height < 0.65; height += 0.1) {
+    static const double heights[] = {0.001, 0.003, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+    for (size_t h = 0; h < sizeof heights / sizeof *heights; h++) {
+        const double height = heights[h];
         sb_solitary_exact *wave = wave_of(height, 1, 1);
-        const double c = sb_solitary_exact_celerity(wave), d = 0.01;
+        const double c = sb_solitary_exact_celerity(wave), d = 0.01 * fmax(1, sqrt(0.1 / height));
         double volume = 0, potential = 0;
         for (int k = -5000; k <= 5000; k++) {
             const double eta = sb_solitary_exact_elevation(wave, k * d);
             volume += d * eta;
             potential += 0.5 * d * eta * eta;
         }
-        printf("H/h %.1f: c %.6f, volume %.6f, 3 V/((c^2 - 1) M) - 1 = %.1e\n", height, c, volume,
+        printf("H/h %g: c %.6f, volume %.6f, 3 V/((c^2 - 1) M) - 1 = %.1e\n", height, c, volume,
                3 * potential / ((c * c - 1) * volume) - 1);
         assert_near(volume, sb_solitary_exact_volume(wave), 1e-6 * volume);
         assert_near(3 * potential, (c * c - 1) * volume, 1e-6 * volume);

@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "render/renderer.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -85,21 +86,26 @@ static sb_frame *water(double time, sb_vec3 from, int nx, int ny, int nz)
     return frame;
 }
 
-/* The picture of the dry stage after the water was there. */
-static sb_image after(const struct stage *stage, sb_frame *before)
+/* The picture of the dry stage after the water of the frames was there. Releases the frames. */
+static sb_image after_all(const struct stage *stage, sb_frame **before, int count)
 {
     sb_error error = {0};
     sb_renderer *renderer = NULL;
     sb_image image = {0};
-    sb_frame *dry = water(2, sb_vec(0, 0, 0), 0, 0, 0);
-    if (sb_renderer_create(&stage->scene, &stage->model, &renderer, &error) != SB_OK ||
-        sb_renderer_draw(renderer, before, 0, &image, &error) != SB_OK ||
-        sb_renderer_draw(renderer, dry, 0, &image, &error) != SB_OK)
-        fail_msg("%s", error.text);
+    sb_frame *dry = water(100, sb_vec(0, 0, 0), 0, 0, 0);
+    sb_status status = sb_renderer_create(&stage->scene, &stage->model, &renderer, &error);
+    for (int f = 0; f <= count && status == SB_OK; f++)
+        status = sb_renderer_draw(renderer, f < count ? before[f] : dry, 0, &image, &error);
+    if (status != SB_OK) fail_msg("%s", error.text);
     sb_renderer_destroy(renderer);
-    sb_frame_release(before);
+    for (int f = 0; f < count; f++) sb_frame_release(before[f]);
     sb_frame_release(dry);
     return image;
+}
+
+static sb_image after(const struct stage *stage, sb_frame *before)
+{
+    return after_all(stage, &before, 1);
 }
 
 static const unsigned char *pixel(const sb_image *image, int x, int y)
@@ -146,6 +152,113 @@ static void walls_show_the_greatest_depth(void **state)
     clear_stage(&stage);
 }
 
+static int count_changes(const sb_image *a, const sb_image *b)
+{
+    int changes = 0;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) changes += differ(a, b, x, y) > 8;
+    return changes;
+}
+
+/* Row of the ground 16 m before the camera of the level picture. */
+enum { ON_GROUND = 119 };
+
+/* While the colours of the wall are those of its loads, nothing else is painted on it; terrain is painted. */
+static void loads_are_not_painted_over(void **state)
+{
+    (void)state;
+    struct stage stage;
+    sb_image image[2];
+    set_stage(&stage, sb_vec(-20, 0, 3));
+    stage.scene.resolution = 0.5;
+    stage.scene.render.loads = true;
+    stage.bodies[0].role = SB_ROLE_TERRAIN;
+    for (int with = 0; with < 2; with++) {
+        stage.scene.render.greatest_depth = stage.scene.render.wet_ground = with;
+        image[with] = after(&stage, water(1, sb_vec(-8, -5, 0), 20, 20, 8));
+    }
+    assert_int_equal(differ(&image[0], &image[1], WIDTH / 2, row_of(3.2)), 0);
+    assert_int_equal(differ(&image[0], &image[1], WIDTH / 2, row_of(0.8)), 0);
+    assert_true(differ(&image[0], &image[1], WIDTH / 2, ON_GROUND) > 20);
+    for (int with = 0; with < 2; with++) sb_image_free(&image[with]);
+    clear_stage(&stage);
+}
+
+/* A body that moves has no place where the water has been. */
+static void bodies_that_move_are_not_painted(void **state)
+{
+    (void)state;
+    struct stage stage;
+    set_stage(&stage, sb_vec(-20, 0, 3));
+    stage.bodies[1].wavemaker = 0;
+    stage.scene.domain.min.z = -1; /* the ground is above the still water */
+    for (int key = 0; key < 2; key++) {
+        stage.scene.render.greatest_depth = key == 0;
+        stage.scene.render.wet_ground = key == 1;
+        sb_image dry = after(&stage, water(1, sb_vec(-8, -5, 0), 0, 0, 0));
+        sb_image deep = after(&stage, water(1, sb_vec(-8, -5, 0), 20, 20, 8));
+        assert_int_equal(differ(&deep, &dry, WIDTH / 2, row_of(3.2)), 0);
+        assert_int_equal(differ(&deep, &dry, WIDTH / 2, row_of(0.8)), 0);
+        assert_true(differ(&deep, &dry, WIDTH / 2, ON_GROUND) > 8);
+        sb_image_free(&dry);
+        sb_image_free(&deep);
+    }
+    clear_stage(&stage);
+}
+
+/* Sixteen columns of three particles, half a metre from each other, from the origin in a direction. */
+static sb_frame *oblique_row(double angle)
+{
+    sb_frame *frame = water(1, sb_vec(-8, -3, 0), 16, 1, 3);
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 16; i++) {
+            float *p = frame->position + 3 * (16 * k + i);
+            p[0] = (float)(-8 + 0.5 * i * cos(angle));
+            p[1] = (float)(-3 + 0.5 * i * sin(angle));
+        }
+    return frame;
+}
+
+/* Neither a row in any direction nor a column that crosses the ground, over and over, wets it. */
+static void oblique_tracks_leave_no_streaks(void **state)
+{
+    (void)state;
+    enum { STEPS = 32 };
+    struct stage stage;
+    sb_frame *frames[STEPS];
+    set_stage(&stage, sb_vec(-10, 0, 25));
+    stage.scene.render.wet_ground = true;
+    sb_image dry = after(&stage, water(1, sb_vec(-8, 0, 0), 0, 0, 0));
+    for (int a = 1; a < 6; a++) {
+        sb_image row = after(&stage, oblique_row(0.26 * a));
+        assert_int_equal(count_changes(&row, &dry), 0);
+        sb_image_free(&row);
+    }
+    for (int f = 0; f < STEPS; f++)
+        frames[f] = water(1 + f, sb_vec(-8 + 0.5 * (f % 16), -3 + 0.5 * (f % 16) + f / 16 * 0.6, 0), 1, 1, 4);
+    sb_image track = after_all(&stage, frames, STEPS);
+    assert_int_equal(count_changes(&track, &dry), 0);
+    sb_image_free(&dry);
+    sb_image_free(&track);
+    clear_stage(&stage);
+}
+
+/* The water of two dimensions is a row of cells. */
+static void water_of_two_dimensions_wets(void **state)
+{
+    (void)state;
+    struct stage stage;
+    set_stage(&stage, sb_vec(-8, -12, 6));
+    stage.scene.dimensions = 2;
+    stage.scene.render.wet_ground = true;
+    sb_image dry = after(&stage, water(1, sb_vec(-8, -0.25, 0), 0, 0, 0));
+    sb_image wet = after(&stage, water(1, sb_vec(-8, -0.25, 0), 16, 1, 3));
+    assert_true(count_changes(&wet, &dry) > 100);
+    sb_image_free(&dry);
+    sb_image_free(&wet);
+    clear_stage(&stage);
+}
+
 /* Water of some breadth wets the ground; the track of a single row of particles does not. */
 static void tracks_of_particles_leave_no_streaks(void **state)
 {
@@ -156,14 +269,8 @@ static void tracks_of_particles_leave_no_streaks(void **state)
     sb_image dry = after(&stage, water(1, sb_vec(-8, 0, 0), 0, 0, 0));
     sb_image broad = after(&stage, water(1, sb_vec(-8, -1, 0), 16, 5, 3));
     sb_image narrow = after(&stage, water(1, sb_vec(-8, 0, 0), 16, 1, 3));
-    int wet = 0, streaks = 0;
-    for (int y = 0; y < HEIGHT; y++)
-        for (int x = 0; x < WIDTH; x++) {
-            wet += differ(&broad, &dry, x, y) > 8;
-            streaks += differ(&narrow, &dry, x, y) > 8;
-        }
-    assert_true(wet > 200);
-    assert_int_equal(streaks, 0);
+    assert_true(count_changes(&broad, &dry) > 200);
+    assert_int_equal(count_changes(&narrow, &dry), 0);
     sb_image_free(&dry);
     sb_image_free(&broad);
     sb_image_free(&narrow);
@@ -172,7 +279,9 @@ static void tracks_of_particles_leave_no_streaks(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(walls_show_the_greatest_depth),
-                                       cmocka_unit_test(tracks_of_particles_leave_no_streaks)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(walls_show_the_greatest_depth),    cmocka_unit_test(loads_are_not_painted_over),
+        cmocka_unit_test(bodies_that_move_are_not_painted), cmocka_unit_test(tracks_of_particles_leave_no_streaks),
+        cmocka_unit_test(oblique_tracks_leave_no_streaks),  cmocka_unit_test(water_of_two_dimensions_wets)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -80,6 +80,11 @@ static double longest_step(const sb_scene *scene, const sb_constants *c, double 
     return n->time_step_max > 0 ? fmin(dt, n->time_step_max) : dt;
 }
 
+double sb_sim_sound_speed(const sb_scene *scene, const sb_model *model)
+{
+    return (double)sb_constants_of(scene, model).sound_speed;
+}
+
 double sb_sim_longest_step(const sb_scene *scene, const sb_model *model, double speed)
 {
     const sb_constants constants = sb_constants_of(scene, model);
