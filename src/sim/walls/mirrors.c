@@ -299,8 +299,9 @@ static float sectors_of(float along)
 
 static void relate(const sb_sim *sim, sb_near *near)
 {
-    near->oblique = near->meeting = near->skew = near->blunt = false;
-    for (size_t a = 0; a < near->count; a++)
+    near->oblique = near->meeting = near->skew = false;
+    for (size_t a = 0; a < near->count; a++) {
+        near->blunt[a] = false;
         for (size_t b = 0; b < near->count; b++) {
             const sb_near_facet *one = &near->facet[a], *other = &near->facet[b];
             const float along = sb_sum3(one->plane * other->plane);
@@ -308,12 +309,13 @@ static void relate(const sb_sim *sim, sb_near *near)
                                 (one->both || other->both || before(sim, other, one));
             near->meeting |= near->meets[a][b];
             near->sectors[a][b] = near->meets[a][b] ? sectors_of(along) : 0;
-            near->blunt |= near->sectors[a][b] < 2 && near->sectors[a][b] > SB_SECTORS_LEAST;
+            near->blunt[a] |= near->sectors[a][b] < 2 && near->sectors[a][b] > SB_SECTORS_LEAST;
             const bool square = fabsf(along) < SQUARE, facing = along < -0.9f;
             /* Neighbours that bend by less do not hide each other. */
             near->oblique |= near->meets[a][b] && !square && !facing;
             near->skew |= near->meets[a][b] && !square;
         }
+    }
     near->simple = !near->oblique;
 }
 

@@ -58,7 +58,6 @@ typedef struct sb_near {
     bool oblique; /* some path may be reflected at two facets at other than right angles */
     bool meeting; /* some path may be reflected at two facets */
     bool skew;    /* at other than right angles */
-    bool blunt;   /* some meet at more than a right angle and less than 120 degrees, seen from the water */
     bool moves;   /* a facet moves */
     bool full;    /* more than SB_NEAR_MAX facets or SB_NEAR_EDGES_MAX edges */
     sb_near_facet facet[SB_NEAR_MAX];
@@ -67,6 +66,7 @@ typedef struct sb_near {
     /* pi over the angle between facets that meet, on the water's side; 2: a right angle, INFINITY: they face each
        other; 0: they do not meet */
     float sectors[SB_NEAR_MAX][SB_NEAR_MAX];
+    bool blunt[SB_NEAR_MAX]; /* it meets another one at more than a right angle and less than 120 degrees */
 } sb_near;
 
 sb_status sb_mirrors_create(sb_sim *sim, sb_error *error);

@@ -42,9 +42,17 @@ SB_INLINE bool within(const sb_box *box, float support, sb_f4 at)
 static bool goes_on(const sb_near *near, const route *from, size_t a)
 {
     bool exchanged = true; /* with all facets from here to the end of the path */
+    bool returns = false;
+    int between = 0; /* facets since the path was at a last that may have to stay there, and the angle of one of them */
+    float sectors = 0;
     for (int k = from->depth; k-- > 0;) {
         const size_t b = (from->path >> (SB_REFLECTION_BITS * k) & SB_REFLECTION_MASK) - 1;
         if (b != a && !(near->meets[b][a] && near->sectors[b][a] > SB_SECTORS_LEAST)) return false;
+        /* A path that returns to a facet has no share if the one between stands at 72 degrees or more (path_orders.c).
+         */
+        if (b == a && !returns && (between == 0 || (between == 1 && sectors <= 2.5f))) return false;
+        returns |= b == a;
+        if (!returns && near->sectors[b][a] > 2) between++, sectors = near->sectors[b][a];
         exchanged &= b == a || sb_facets_square(near, b, a);
         if (exchanged && b <= a) return false;
         exchanged &= b != a;
@@ -58,6 +66,24 @@ static bool crooked_to_any(const sb_near *near, uint32_t path, size_t a)
     bool crooked = false;
     for (; path; path >>= SB_REFLECTION_BITS) crooked |= sb_facets_crooked(near, (path & SB_REFLECTION_MASK) - 1, a);
     return crooked;
+}
+
+/* Whether facet a meets one of a path at more than a right angle. */
+static bool blunt_to_any(const sb_near *near, uint32_t path, size_t a)
+{
+    bool blunt = false;
+    for (; near->blunt[a] && path; path >>= SB_REFLECTION_BITS)
+        blunt |= near->sectors[(path & SB_REFLECTION_MASK) - 1][a] > SB_SECTORS_LEAST &&
+                 near->sectors[(path & SB_REFLECTION_MASK) - 1][a] < 2;
+    return blunt;
+}
+
+/* Whether a facet of a path meets any other at more than a right angle. */
+static bool may_come_back(const sb_near *near, uint32_t path)
+{
+    bool blunt = false;
+    for (; path; path >>= SB_REFLECTION_BITS) blunt |= near->blunt[(path & SB_REFLECTION_MASK) - 1];
+    return blunt;
 }
 
 /* Whether facet a stands at right angles to all facets of a path. */
@@ -96,8 +122,10 @@ SB_APART void reflect_on(gatherer *g, uint32_t source, size_t s, const route *fr
         const sb_near_facet *f = &near->facet[a];
         const float above = sb_before_facet(f, from->at);
         if (fabsf(above) >= g->cull->support || (from->away && above >= 0)) continue;
-        const bool soft = f->edges > 0 || f->both, crooked = from->crooked || crooked_to_any(near, from->path, a);
-        if (above <= 0 && !crooked && !(soft && sb_facets_square(near, from->last, a))) continue;
+        if (from->away && !blunt_to_any(near, from->path, a)) continue;
+        const bool soft = f->edges > 0 || f->both, leans = crooked_to_any(near, from->path, a);
+        if (above <= 0 && !leans && !(soft && sb_facets_square(near, from->last, a))) continue;
+        const bool crooked = from->crooked || leans;
         const route to = {.at = sb_reflect(f->plane, from->at),
                           .path = from->path | (uint32_t)(a + 1) << (SB_REFLECTION_BITS * from->depth),
                           .depth = from->depth + 1,
@@ -107,7 +135,7 @@ SB_APART void reflect_on(gatherer *g, uint32_t source, size_t s, const route *fr
                           .beyond = from->beyond || of->beyond[a][s],
                           .away = !within(&g->cull->box, g->cull->support, to.at)};
         /* Further reflections take an image farther away, unless it is behind a facet: blunt corners have such ones. */
-        if (to.away && !near->blunt) continue;
+        if (to.away && !may_come_back(near, to.path)) continue;
         const bool misses = to.square || crooked ? to.beyond : !sb_cull_meets(near, g->cull, to.path, to.at);
         if (!misses && !to.away && !add_image(g, source, &to, false, above)) {
             g->full = true;
@@ -126,7 +154,7 @@ SB_INLINE void reflect_at(gatherer *g, uint32_t first, size_t a)
     const bool soft = f->edges > 0 || f->both;
     for (size_t s = 0; s < of->count && !g->full; s++) {
         const bool away = of->apart[a][s];
-        if ((away && !(near->blunt && of->near[s])) || (of->beyond[a][s] && !near->skew)) continue;
+        if ((away && !(near->blunt[a] && of->near[s])) || (of->beyond[a][s] && !near->skew)) continue;
         const sb_f4 at = g->v->place[first + s];
         const float above = sb_before_facet(f, at);
         if ((above <= 0 && !soft) || (away && (above <= 0 || above >= g->cull->support))) continue;
@@ -162,7 +190,7 @@ SB_APART void reflect_candidates(gatherer *g)
         of->x = v->x + begin, of->y = v->y + begin, of->z = v->z + begin;
         if (!sb_cull_sources(g->near, g->cull, of)) continue;
         for (size_t a = 0; a < g->near->count; a++)
-            if (of->any[a] || g->near->blunt) reflect_at(g, (uint32_t)begin, a);
+            if (of->any[a] || g->near->blunt[a]) reflect_at(g, (uint32_t)begin, a);
     }
 }
 
