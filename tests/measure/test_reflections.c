@@ -94,7 +94,7 @@ static void each_window_has_rows(void **state)
     fake_world_free(&f.world);
 }
 
-/* A bound and a free second harmonic are told apart by a set that asks for it, and not by the other. The gauges'
+/* A set that asks for it finds a bound and a free second harmonic, and the other does not. The gauges'
    average over the kernel's width takes up to (k s)^2 2/3 = 7 % of a free wave of 0.8 s. */
 static void bound_harmonics_are_split(void **state)
 {
