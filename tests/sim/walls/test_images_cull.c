@@ -13,6 +13,7 @@ static sb_near near;
 static sb_cull cull;
 static sb_sources sources;
 static sb_standing standing;
+static sb_relations relations;
 static float x[2 * SB_SOURCES_MAX], y[2 * SB_SOURCES_MAX], z[2 * SB_SOURCES_MAX];
 static const float SPACING = 1000, SUPPORT = 2750, EDGE = 2750;
 static uint64_t draws;
@@ -59,7 +60,7 @@ static sb_f4 particle(sb_f4 low, sb_f4 high)
 static float weight(sb_f4 self, sb_f4 source)
 {
     const sb_near_facet *f = &near.facet[0];
-    const sb_weigher w = {&near, self, SB_TRANSITION * SPACING, 1e-3f * SPACING, &standing};
+    const sb_weigher w = {&near, &relations, self, SB_TRANSITION * SPACING, 1e-3f * SPACING, &standing};
     sb_half_angle angle[4];
     bool meets = true;
     standing.above[0] = sb_before_facet(f, self);
@@ -135,7 +136,7 @@ static void add_facet(void)
 /* The weight of a path to this particle. */
 static float weight_of(const size_t *by, int count, sb_f4 self, sb_f4 source, sb_f4 image)
 {
-    const sb_weigher w = {&near, self, SB_TRANSITION * SPACING, 1e-3f * SPACING, &standing};
+    const sb_weigher w = {&near, &relations, self, SB_TRANSITION * SPACING, 1e-3f * SPACING, &standing};
     sb_weight_parts all;
     for (size_t a = 0; a < near.count; a++) {
         const sb_near_facet *f = &near.facet[a];
@@ -188,9 +189,102 @@ static void paths_that_are_left_out_have_no_weight(void **state)
     assert_true(missed > (pairs - weighed) / 4);
 }
 
+/* ---- routes ---- */
+
+/* How the facets stand to each other, for facets that all see each other. */
+static void relate(void)
+{
+    near.skew = near.meeting = true;
+    for (size_t a = 0; a < near.count; a++) {
+        near.blunt[a] = false;
+        for (size_t b = 0; b < near.count; b++) {
+            const float along = sb_sum3(near.facet[a].plane * near.facet[b].plane);
+            near.meets[a][b] = a != b && along < SB_BENT;
+            near.sectors[a][b] = !near.meets[a][b]      ? 0
+                                 : fabsf(along) < 1e-3f ? 2
+                                 : along < -0.9f        ? INFINITY
+                                                        : (float)M_PI / acosf(-along);
+            near.blunt[a] |= near.sectors[a][b] < 2 && near.sectors[a][b] > SB_SECTORS_LEAST;
+        }
+    }
+    sb_relations_find(&near, &relations);
+}
+
+/* Whether a path by these facets is one that counts at all, however its ends lie. */
+static bool is_route(const size_t *by, int count)
+{
+    sb_route so_far = {.depth = 0};
+    for (int k = 0; k < count; k++) {
+        for (int m = 0; m < k; m++)
+            if (by[m] != by[k] && !(near.meets[by[m]][by[k]] && near.sectors[by[m]][by[k]] > SB_SECTORS_LEAST))
+                return false;
+        if (k > 0 && !sb_route_ordered(&near, &so_far, by[k])) return false;
+        so_far.path |= (uint32_t)(by[k] + 1) << (SB_REFLECTION_BITS * so_far.depth++);
+    }
+    return true;
+}
+
+/* Whether the sets lead along these facets. */
+static bool is_offered(const size_t *by, int count)
+{
+    sb_route from = {.beyond = sources.beyond[by[0]][0]};
+    sb_route_begin(&near, &relations, by[0], &from);
+    for (int k = 1; k < count; k++) {
+        if (!(sb_route_facets(&near, &from, &sources.open[0], 0) >> by[k] & 1)) return false;
+        sb_route to = {.beyond = from.beyond || sources.beyond[by[k]][0]};
+        sb_route_append(&near, &relations, &from, by[k], &to);
+        from = to;
+    }
+    return true;
+}
+
+static void routes_that_are_not_offered_have_no_weight(void **state)
+{
+    (void)state;
+    static sb_sim sim;
+    sim.constant.spacing = SPACING;
+    sim.constant.support = SUPPORT;
+    sim.space.quantum = 1;
+    size_t routes = 0, withheld = 0, weighed = 0;
+    for (int trial = 0; trial < 20 * TRIALS; trial++) {
+        near.count = near.edge_count = 0;
+        near.simple = true;
+        for (int k = 0; k < FACETS_MAX; k++) add_facet();
+        relate();
+        const sb_f4 low = {EDGE + draw(0, EDGE), EDGE + draw(0, EDGE), EDGE + draw(0, EDGE), 0};
+        const sb_f4 high = low + (sb_f4){draw(0, EDGE), draw(0, EDGE), draw(0, EDGE), 0};
+        const sb_f4 source = particle(low, high);
+        sources = (sb_sources){.count = 1, .x = x, .y = y, .z = z};
+        for (size_t a = 0; a < near.count; a++) sources.lowest[a] = INFINITY, sources.highest[a] = -INFINITY;
+        x[0] = source[0], y[0] = source[1], z[0] = source[2];
+        sb_cull_begin(&sim, &near, low, high, &cull);
+        if (!sb_cull_sources(&near, &cull, &sources)) continue;
+        const int count = 2 + (int)draw(0, 2.99f);
+        size_t by[FACETS_MAX];
+        sb_f4 image = source;
+        for (int k = 0; k < count; k++) {
+            by[k] = (size_t)draw(0, FACETS_MAX - 0.01f);
+            image = sb_reflect(near.facet[by[k]].plane, image);
+        }
+        if (!is_route(by, count)) continue;
+        const bool offered = is_offered(by, count);
+        routes++;
+        withheld += !offered;
+        for (int p = 0; p < PLACES; p++) {
+            const float value = weight_of(by, count, particle(low, high), source, image);
+            weighed += value >= SB_WEIGHT_LEAST;
+            if (!offered) assert_true(value < SB_WEIGHT_LEAST);
+        }
+    }
+    printf("%zu routes: %zu were not offered; %zu paths have weight\n", routes, withheld, weighed);
+    assert_true(withheld > routes / 10);
+    assert_true(weighed > 1000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_left_out_has_no_weight),
-                                       cmocka_unit_test(paths_that_are_left_out_have_no_weight)};
+                                       cmocka_unit_test(paths_that_are_left_out_have_no_weight),
+                                       cmocka_unit_test(routes_that_are_not_offered_have_no_weight)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -177,15 +177,24 @@ static bool at_facet(const sb_near_facet *f, const sb_cull *cull, size_t facet, 
     return all == 0;
 }
 
+static void find_open(const sb_near *near, sb_sources *of)
+{
+    for (size_t s = 0; s < of->count; s++) of->open[s] = (sb_facet_set){0};
+    for (size_t a = 0; a < near->count; a++)
+        for (size_t s = 0; s < of->count; s++) sb_facet_set_put(&of->open[s], a, !of->beyond[a][s]);
+}
+
 bool sb_cull_sources(const sb_near *near, const sb_cull *cull, sb_sources *of)
 {
     if (!find_near(cull, of)) return false;
     bool any = false;
+    /* A facet whose own images are not near can still be part of a path whose image is, at crooked corners. */
     for (size_t a = 0; a < near->count; a++) {
         of->any[a] = at_facet(&near->facet[a], cull, a, of);
-        if (of->any[a] && near->facet[a].edges > 0) at_edges(near, cull, a, of);
+        if ((of->any[a] || near->skew) && near->facet[a].edges > 0) at_edges(near, cull, a, of);
         any |= of->any[a];
     }
+    if (any && near->meeting) find_open(near, of);
     return any;
 }
 

@@ -28,6 +28,22 @@ typedef struct sb_cull {
     sb_edge_bounds edge[SB_NEAR_EDGES_MAX];
 } sb_cull;
 
+/* Facets near a group, by number: facet a is bit a % 64 of word[a / 64]. */
+enum { SB_FACET_WORDS = (SB_NEAR_MAX + 63) / 64 };
+typedef struct sb_facet_set {
+    uint64_t word[SB_FACET_WORDS];
+} sb_facet_set;
+
+SB_INLINE bool sb_facet_set_has(const sb_facet_set *set, size_t a)
+{
+    return set->word[a / 64] >> a % 64 & 1;
+}
+
+SB_INLINE void sb_facet_set_put(sb_facet_set *set, size_t a, bool in)
+{
+    set->word[a / 64] |= (uint64_t)in << a % 64;
+}
+
 /* Consecutive records near a group. x, y, z: SB_HIT_SPARE entries beyond the last can be read. By facet: */
 typedef struct sb_sources {
     size_t count;
@@ -40,6 +56,8 @@ typedef struct sb_sources {
     _Alignas(32)
         int32_t whole[SB_NEAR_MAX][SB_SOURCES_MAX];  /* paths from particles before the facet have the weight 1 there */
     float lowest[SB_NEAR_MAX], highest[SB_NEAR_MAX]; /* distances before the plane of those near the group, so far */
+    /* By source, where paths may be reflected several times: the facets by which its paths may have weight. */
+    sb_facet_set open[SB_SOURCES_MAX];
 } sb_sources;
 
 void sb_cull_begin(const sb_sim *sim, const sb_near *near, sb_f4 low, sb_f4 high, sb_cull *cull);

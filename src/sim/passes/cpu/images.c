@@ -11,20 +11,9 @@ typedef struct gatherer {
     sb_images_around *images;
     sb_cull *cull;
     sb_sources *sources;
+    sb_relations *relations;
     bool full;
 } gatherer;
-
-/* The first reflections of a path. */
-typedef struct route {
-    sb_f4 at;
-    uint32_t path;
-    int depth;
-    size_t last;
-    bool square;  /* all facets stand at right angles to each other */
-    bool crooked; /* some meet at other angles */
-    bool beyond;  /* one of them has no part of it */
-    bool away;    /* the image is not near the group */
-} route;
 
 SB_INLINE bool within(const sb_box *box, float support, sb_f4 at)
 {
@@ -37,65 +26,8 @@ SB_INLINE bool within(const sb_box *box, float support, sb_f4 at)
     return far2 < support * support;
 }
 
-/* Whether a path may go on to facet a. Reflections at right angles can be exchanged, so that one order is enough: that
-   in which no later facet could be moved before one of a lower number. */
-static bool goes_on(const sb_near *near, const route *from, size_t a)
-{
-    bool exchanged = true; /* with all facets from here to the end of the path */
-    bool returns = false;
-    int between = 0; /* facets since the path was at a last that may have to stay there, and the angle of one of them */
-    float sectors = 0;
-    for (int k = from->depth; k-- > 0;) {
-        const size_t b = (from->path >> (SB_REFLECTION_BITS * k) & SB_REFLECTION_MASK) - 1;
-        if (b != a && !(near->meets[b][a] && near->sectors[b][a] > SB_SECTORS_LEAST)) return false;
-        /* A path that returns to a facet has no share if the one between stands at 72 degrees or more (path_orders.c).
-         */
-        if (b == a && !returns && (between == 0 || (between == 1 && sectors <= 2.5f))) return false;
-        returns |= b == a;
-        if (!returns && near->sectors[b][a] > 2) between++, sectors = near->sectors[b][a];
-        exchanged &= b == a || sb_facets_square(near, b, a);
-        if (exchanged && b <= a) return false;
-        exchanged &= b != a;
-    }
-    return true;
-}
-
-/* Whether facet a meets one of a path at another than a right angle. */
-static bool crooked_to_any(const sb_near *near, uint32_t path, size_t a)
-{
-    bool crooked = false;
-    for (; path; path >>= SB_REFLECTION_BITS) crooked |= sb_facets_crooked(near, (path & SB_REFLECTION_MASK) - 1, a);
-    return crooked;
-}
-
-/* Whether facet a meets one of a path at more than a right angle. */
-static bool blunt_to_any(const sb_near *near, uint32_t path, size_t a)
-{
-    bool blunt = false;
-    for (; near->blunt[a] && path; path >>= SB_REFLECTION_BITS)
-        blunt |= near->sectors[(path & SB_REFLECTION_MASK) - 1][a] > SB_SECTORS_LEAST &&
-                 near->sectors[(path & SB_REFLECTION_MASK) - 1][a] < 2;
-    return blunt;
-}
-
-/* Whether a facet of a path meets any other at more than a right angle. */
-static bool may_come_back(const sb_near *near, uint32_t path)
-{
-    bool blunt = false;
-    for (; path; path >>= SB_REFLECTION_BITS) blunt |= near->blunt[(path & SB_REFLECTION_MASK) - 1];
-    return blunt;
-}
-
-/* Whether facet a stands at right angles to all facets of a path. */
-static bool square_to_all(const sb_near *near, uint32_t path, size_t a)
-{
-    bool square = true;
-    for (; path; path >>= SB_REFLECTION_BITS) square &= sb_facets_square(near, (path & SB_REFLECTION_MASK) - 1, a);
-    return square;
-}
-
 /* Notes an image. Returns false if there are too many. */
-static bool add_image(const gatherer *g, uint32_t source, const route *to, bool whole, float above)
+static bool add_image(const gatherer *g, uint32_t source, const sb_route *to, bool whole, float above)
 {
     sb_vicinity *v = g->v;
     const size_t k = v->images, c = v->count + k;
@@ -112,41 +44,44 @@ static bool add_image(const gatherer *g, uint32_t source, const route *to, bool 
     return true;
 }
 
-/* Adds the images of a source, which is number `s` of those in hand, by the paths that go on from here. */
-SB_APART void reflect_on(gatherer *g, uint32_t source, size_t s, const route *from)
+static void reflect_on(gatherer *g, uint32_t source, size_t s, const sb_route *from);
+
+/* Adds the image by a route that goes on to facet a, and those by the routes from there on. */
+SB_INLINE void reflect_at(gatherer *g, uint32_t source, size_t s, const sb_route *from, size_t a)
 {
     const sb_near *near = g->near;
     const sb_sources *of = g->sources;
-    for (size_t a = 0; a < near->count && !g->full; a++) {
-        if (!goes_on(near, from, a) || (of->beyond[a][s] && !near->skew)) continue;
-        const sb_near_facet *f = &near->facet[a];
-        const float above = sb_before_facet(f, from->at);
-        if (fabsf(above) >= g->cull->support || (from->away && above >= 0)) continue;
-        if (from->away && !blunt_to_any(near, from->path, a)) continue;
-        const bool soft = f->edges > 0 || f->both, leans = crooked_to_any(near, from->path, a);
-        if (above <= 0 && !leans && !(soft && sb_facets_square(near, from->last, a))) continue;
-        const bool crooked = from->crooked || leans;
-        const route to = {.at = sb_reflect(f->plane, from->at),
-                          .path = from->path | (uint32_t)(a + 1) << (SB_REFLECTION_BITS * from->depth),
-                          .depth = from->depth + 1,
-                          .last = a,
-                          .square = from->square && square_to_all(near, from->path, a),
-                          .crooked = crooked,
-                          .beyond = from->beyond || of->beyond[a][s],
-                          .away = !within(&g->cull->box, g->cull->support, to.at)};
-        /* Further reflections take an image farther away, unless it is behind a facet: blunt corners have such ones. */
-        if (to.away && !may_come_back(near, to.path)) continue;
-        const bool misses = to.square || crooked ? to.beyond : !sb_cull_meets(near, g->cull, to.path, to.at);
-        if (!misses && !to.away && !add_image(g, source, &to, false, above)) {
-            g->full = true;
-            return;
-        }
-        if (to.depth < SB_REFLECTIONS_MAX) reflect_on(g, source, s, &to);
+    const sb_near_facet *f = &near->facet[a];
+    if (!sb_route_ordered(near, from, a)) return;
+    const float above = sb_before_facet(f, from->at);
+    if (fabsf(above) >= g->cull->support || (from->away && above >= 0)) return;
+    if (from->away && !(near->blunt[a] && sb_route_blunt_to(g->relations, from, a))) return;
+    const bool soft = f->edges > 0 || f->both, leans = sb_route_leans(from, a);
+    if (above <= 0 && !leans && !(soft && sb_facets_square(near, from->last, a))) return;
+    sb_route to = {.at = sb_reflect(f->plane, from->at), .beyond = from->beyond || of->beyond[a][s]};
+    sb_route_append(near, g->relations, from, a, &to);
+    to.away = !within(&g->cull->box, g->cull->support, to.at);
+    /* Further reflections take an image farther away, unless it is behind a facet: blunt corners have such ones. */
+    if (to.away && !to.blunt) return;
+    const bool misses = to.square || to.crooked ? to.beyond : !sb_cull_meets(near, g->cull, to.path, to.at);
+    if (!misses && !to.away && !add_image(g, source, &to, false, above))
+        g->full = true;
+    else if (to.depth < SB_REFLECTIONS_MAX)
+        reflect_on(g, source, s, &to);
+}
+
+/* Adds the images of a source, which is number `s` of those in hand, by the paths that go on from here. */
+static void reflect_on(gatherer *g, uint32_t source, size_t s, const sb_route *from)
+{
+    for (size_t w = 0; 64 * w < g->near->count; w++) {
+        uint64_t facets = sb_route_facets(g->near, from, &g->sources->open[s], w);
+        for (; facets && !g->full; facets &= facets - 1)
+            reflect_at(g, source, s, from, 64 * w + (size_t)__builtin_ctzll(facets));
     }
 }
 
 /* Adds the images of the sources by paths that begin at facet a. first: candidate of the first source. */
-SB_INLINE void reflect_at(gatherer *g, uint32_t first, size_t a)
+SB_INLINE void reflect_first(gatherer *g, uint32_t first, size_t a)
 {
     const sb_near *near = g->near;
     const sb_sources *of = g->sources;
@@ -158,13 +93,8 @@ SB_INLINE void reflect_at(gatherer *g, uint32_t first, size_t a)
         const sb_f4 at = g->v->place[first + s];
         const float above = sb_before_facet(f, at);
         if ((above <= 0 && !soft) || (away && (above <= 0 || above >= g->cull->support))) continue;
-        const route to = {.at = sb_reflect(f->plane, at),
-                          .path = (uint32_t)(a + 1),
-                          .depth = 1,
-                          .last = a,
-                          .square = true,
-                          .beyond = of->beyond[a][s],
-                          .away = away};
+        sb_route to = {.at = sb_reflect(f->plane, at), .beyond = of->beyond[a][s], .away = away};
+        sb_route_begin(near, g->relations, a, &to);
         if (!to.beyond && !away && !add_image(g, first + (uint32_t)s, &to, of->whole[a][s], above)) g->full = true;
         if (near->meeting && !g->full) reflect_on(g, first + (uint32_t)s, s, &to);
     }
@@ -190,7 +120,7 @@ SB_APART void reflect_candidates(gatherer *g)
         of->x = v->x + begin, of->y = v->y + begin, of->z = v->z + begin;
         if (!sb_cull_sources(g->near, g->cull, of)) continue;
         for (size_t a = 0; a < g->near->count; a++)
-            if (of->any[a] || g->near->blunt[a]) reflect_at(g, (uint32_t)begin, a);
+            if (of->any[a] || g->near->blunt[a]) reflect_first(g, (uint32_t)begin, a);
     }
 }
 
@@ -208,6 +138,7 @@ SB_APART void find_parts(const gatherer *g)
         if (a < SB_SIDE_BITS) g->images->parts |= (uint64_t)f->parts << a;
     }
     if (near->simple) return;
+    sb_relations_find_parts(near, g->relations);
     const size_t bits = near->count < SB_SIDE_BITS ? near->count : SB_SIDE_BITS;
     for (size_t c = 0; c < g->v->count; c++) {
         uint64_t behind = 0;
@@ -251,7 +182,8 @@ bool sb_images_gather(const sb_sim *sim, const sb_group *group, sb_vicinity *v, 
     if (near->full) return false;
     if (near->count == 0) return true;
     drop_edges(sim, v, &(sb_box){{low[0], low[1], low[2]}, {high[0], high[1], high[2]}}, near);
-    gatherer g = {v, near, images, &images->cull, &images->sources, false};
+    gatherer g = {v, near, images, &images->cull, &images->sources, &images->relations, false};
+    if (near->meeting) sb_relations_find(near, g.relations);
     sb_cull_begin(sim, near, low, high, g.cull);
     for (size_t a = 0; a < near->count; a++) g.sources->lowest[a] = INFINITY, g.sources->highest[a] = -INFINITY;
     reflect_candidates(&g);

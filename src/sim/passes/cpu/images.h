@@ -6,6 +6,7 @@
 #include "sim/passes/cpu/cull.h"
 #include "sim/passes/cpu/edges.h"
 #include "sim/passes/cpu/lists.h"
+#include "sim/passes/cpu/routes.h"
 #include "sim/walls/mirrors.h"
 
 /* How the weight of one path changes with the places of its ends, by one facet: the derivatives by x_i and x_j in
@@ -32,6 +33,7 @@ typedef struct sb_images_around {
     sb_near near;
     sb_cull cull;
     sb_sources sources; /* of one cell, while images are gathered */
+    sb_relations relations;
     uint32_t source[SB_AROUND_MAX + SB_HIT_SPARE];
     uint32_t path[SB_AROUND_MAX + SB_HIT_SPARE];
     bool whole[SB_AROUND_MAX + SB_HIT_SPARE]; /* one reflection, with no edge near its paths */

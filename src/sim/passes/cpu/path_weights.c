@@ -169,17 +169,12 @@ static bool is_crooked(const sb_near *near, const size_t *by, int count)
     return crooked;
 }
 
-/* How a facet stands to those of a path: whether it can hide the path, and whether it meets one at another than a right
-   angle. */
-static bool may_hide(const sb_weigher *w, const size_t *by, int count, size_t k, bool *leans)
+/* Whether a facet meets one of a path's at another than a right angle. */
+static bool leans_to(const sb_near *near, const size_t *by, int count, size_t k)
 {
-    bool kept = w->near->facet[k].parts;
-    for (int m = 0; m < count && kept; m++) {
-        const bool crooked = sb_facets_crooked(w->near, by[m], k);
-        kept = k != by[m] && (crooked || sb_facets_square(w->near, by[m], k)) && w->near->meets[by[m]][k];
-        *leans |= crooked;
-    }
-    return kept;
+    bool leans = false;
+    for (int m = 0; m < count; m++) leans |= sb_facets_crooked(near, by[m], k);
+    return leans;
 }
 
 sb_weight sb_past_facets(const sb_weigher *w, const size_t *by, int count, sb_f4 source, sb_f4 image, size_t *by_facet)
@@ -187,16 +182,19 @@ sb_weight sb_past_facets(const sb_weigher *w, const size_t *by, int count, sb_f4
     const bool crooked = is_crooked(w->near, by, count);
     sb_weight least = WHOLE;
     *by_facet = SIZE_MAX;
-    for (size_t k = 0; k < w->near->count; k++) {
-        const sb_near_facet *g = &w->near->facet[k];
-        bool leans = crooked;
-        if (!may_hide(w, by, count, k, &leans)) continue;
-        const sb_weight past = !leans       ? past_facet(w, by, count, g, image)
-                               : count == 1 ? past_leaning(w, by[0], g, source)
-                                            : past_facet(w, NULL, 0, g, source);
-        if (past.value >= least.value) continue;
-        least = past;
-        *by_facet = k;
+    for (size_t n = 0; 64 * n < w->near->count; n++) {
+        uint64_t hiders = w->relations->parts.word[n];
+        for (int m = 0; m < count; m++) hiders &= w->relations->hide[by[m]].word[n];
+        for (; hiders; hiders &= hiders - 1) {
+            const size_t k = 64 * n + (size_t)__builtin_ctzll(hiders);
+            const sb_near_facet *g = &w->near->facet[k];
+            const sb_weight past = !crooked && !leans_to(w->near, by, count, k) ? past_facet(w, by, count, g, image)
+                                   : count == 1                                 ? past_leaning(w, by[0], g, source)
+                                                                                : past_facet(w, NULL, 0, g, source);
+            if (past.value >= least.value) continue;
+            least = past;
+            *by_facet = k;
+        }
     }
     return least;
 }
@@ -287,14 +285,14 @@ static bool lets_pass(const sb_weigher *w, size_t a, size_t k, const bounce *way
 /* Whether a facet that reflections at facet a do not leave where it is blocks one of the two legs of a path. */
 SB_APART bool leg_blocked(const sb_weigher *w, size_t a, const bounce *way, sb_f4 from, sb_f4 to)
 {
-    for (size_t k = 0; k < w->near->count; k++) {
-        const sb_near_facet *g = &w->near->facet[k];
-        if (k == a || (sb_facets_square(w->near, a, k) && (g->parts || !w->near->meets[a][k]))) continue;
-        if (g->parts && sb_facets_crooked(w->near, a, k)) continue;
-        const float s = sb_before_facet(g, from), t = sb_before_facet(g, to);
-        if (!((s > w->eps && t < -w->eps) || (s < -w->eps && t > w->eps))) continue;
-        if (inside(w->near, g, from + (to - from) * sb_splat(s / (s - t))) && !lets_pass(w, a, k, way)) return true;
-    }
+    for (size_t n = 0; 64 * n < w->near->count; n++)
+        for (uint64_t facets = w->relations->block[a].word[n]; facets; facets &= facets - 1) {
+            const size_t k = 64 * n + (size_t)__builtin_ctzll(facets);
+            const sb_near_facet *g = &w->near->facet[k];
+            const float s = sb_before_facet(g, from), t = sb_before_facet(g, to);
+            if (!((s > w->eps && t < -w->eps) || (s < -w->eps && t > w->eps))) continue;
+            if (inside(w->near, g, from + (to - from) * sb_splat(s / (s - t))) && !lets_pass(w, a, k, way)) return true;
+        }
     return false;
 }
 
@@ -341,16 +339,13 @@ SB_APART void reflected_crookedly(const sb_weigher *w, const size_t *by, int cou
 {
     bool meets = true;
     sb_path_share share;
-    if (!sb_path_order_share(w->near, by, count, w->self, source, &share)) {
-        all->value = 0;
-        return;
-    }
     for (int k = 0; k < count && all->value >= SB_WEIGHT_LEAST; k++) {
         bool met = false;
         for (int m = 0; m < k; m++) met |= by[m] == by[k];
         if (!met) sb_take_part(all, by[k], part_at(w, by[k], source, &meets));
     }
-    all->value *= share.value;
+    if (all->value < SB_WEIGHT_LEAST) return;
+    all->value *= sb_path_order_share(w->near, by, count, w->self, source, &share) ? share.value : 0;
     if (all->value < SB_WEIGHT_LEAST) return;
     for (int k = 0; k < share.facets; k++) {
         all->facet[all->count] = by[share.at[k]];

@@ -24,6 +24,7 @@ typedef struct sb_weight {
 /* The particle from which paths begin. */
 typedef struct sb_weigher {
     const sb_near *near;
+    const sb_relations *relations;
     sb_f4 self;
     float transition, eps;
     sb_standing *at; /* of self */

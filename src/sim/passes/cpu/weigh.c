@@ -21,7 +21,8 @@ SB_APART void set_weight(sb_images_around *images, const sb_weight_parts *all, s
 static sb_weigher weigher_of(const sb_sim *sim, sb_images_around *images, sb_f4 self)
 {
     const float spacing = sim->constant.spacing / (float)sim->space.quantum;
-    return (sb_weigher){&images->near, self, SB_TRANSITION * spacing, 1e-3f * spacing, &images->standing};
+    return (sb_weigher){&images->near,           &images->relations, self,
+                        SB_TRANSITION * spacing, 1e-3f * spacing,    &images->standing};
 }
 
 SB_APART void stand(const sb_weigher *w)
