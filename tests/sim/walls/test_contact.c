@@ -2,9 +2,12 @@
 #include "base/random.h"
 #include "check.h"
 #include "sim/tank.h"
+#include "sim/walls/basin.h"
 #include "sim/walls/contact.h"
+#include "sim/walls/mirrors.h"
 
 #include <stdio.h>
+#include <unistd.h>
 
 static const double DR = 0.1, PLATE = 0.4, SIZE = 0.8;
 
@@ -118,11 +121,137 @@ static void approaching_particles_are_stopped_without_energy_gain(void **state)
     for (sb_preset preset = SB_PRESET_DEFAULT; preset <= SB_PRESET_PAPER; preset++) check_approach(preset);
 }
 
+/* ---- round a convex surface ---- */
+
+enum { ROUND_STEPS = 60 };
+
+/* Distance before the sides of an upright convex body that has `middle` in it, m. */
+static double before_sides(const sb_sim *sim, sb_vec3 middle, sb_vec3 at)
+{
+    const sb_vec3 place = sb_scale(sb_sub(at, sim->space.origin), 1 / sim->space.quantum);
+    const sb_vec3 inside = sb_scale(sb_sub(middle, sim->space.origin), 1 / sim->space.quantum);
+    double most = -(double)INFINITY;
+    for (size_t k = 0; k < sim->walls.mirrors.count; k++) {
+        const sb_mirror *m = &sim->walls.mirrors.mirror[k];
+        if (fabs(m->normal.z) < 0.1 && sb_dot(m->normal, inside) < m->distance)
+            most = fmax(most, sb_dot(m->normal, place) - m->distance);
+    }
+    return most * sim->space.quantum;
+}
+
+/* Single particles run round a cylinder of which each side is as long as four of their steps or one, and are drawn
+   towards it. None gets behind the surface, and none gains energy by contact. */
+static void particles_follow_a_convex_surface(void **state)
+{
+    (void)state;
+    static const double along[] = {0.1, 0.4, 0.8};
+    /* A particle that ends right at an edge is before no facet: long steps end there. */
+    static const double least[] = {0.09, 0.09, 0.02};
+    const sb_vec3 middle = sb_vec(15, 15, 6);
+    for (size_t k = 0; k < sizeof along / sizeof *along; k++) {
+        basin b;
+        basin_fill(&b, 3, "1", "[30, 30, 12]", "{boxes: [{min: [1, 1, 1], max: [7, 5, 5]}]}",
+                   "[{name: pillar, shape: cylinder, center: [15, 15, -1], radius: 6, height: 20}]", "completed");
+        sb_sim *sim = b.sim;
+        assert_true(sim->state.n >= 40);
+        double nearest = (double)INFINITY;
+        for (size_t i = 0; i < sim->state.n; i++) {
+            const double angle = 2 * M_PI * (double)i / (double)sim->state.n;
+            const sb_vec3 at = sb_vec(15 + 6.2 * cos(angle), 15 + 6.2 * sin(angle), 6);
+            sim->state.position[i] = sb_space_record(&sim->space, at);
+            nearest = fmin(nearest, before_sides(sim, middle, at));
+        }
+        assert_true(nearest > 0.1);
+        for (int step = 0; step < ROUND_STEPS; step++) {
+            assert_int_equal(tank_prepare(sim, 1), 0);
+            for (size_t g = 0; g < sim->groups.count; g++)
+                for (size_t i = sim->groups.group[g].first; i < sim->groups.group[g].end; i++) {
+                    const sb_vec3 at = sb_sim_particle(sim, i).position;
+                    const double x = at.x - 15, y = at.y - 15, r = hypot(x, y);
+                    const sb_f4 start = {(float)((-y * along[k] - 0.3 * x) / r), (float)((x * along[k] - 0.3 * y) / r),
+                                         0, 0};
+                    size_t count;
+                    sb_f4 given = {0};
+                    const sb_f4 v = resolved(sim, &sim->groups.group[g], i, start, &count, &given);
+                    assert_true(sb_sum3(v * v) <= sb_sum3(start * start) * (1 + 1e-5f));
+                    const sb_vec3 end = sb_add(at, sb_vec((double)v[0], (double)v[1], 0));
+                    sim->state.position[i] = sb_space_record(&sim->space, end);
+                    nearest = fmin(nearest, before_sides(sim, middle, end));
+                }
+        }
+        printf("%g spacings per step: %.4f spacings before the surface\n", along[k], nearest);
+        assert_true(nearest > least[k]);
+        basin_free(&b);
+    }
+}
+
+/* ---- where the surface turns towards the water ---- */
+
+/* A closed body whose face begins on the floor at x = 20 and leans by `lean`, its run over its height. */
+static void write_wedge(const char *path, double lean)
+{
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    for (int y = -5; y <= 35; y += 40) {
+        fprintf(out, "v 20 %d 0\nv 60 %d 0\nv 60 %d 10\n", y, y, y);
+        fprintf(out, "v %g %d 10\n", 20 + 10 * lean, y);
+    }
+    fputs("f 1 2 3 4\nf 8 7 6 5\nf 5 6 2 1\nf 6 7 3 2\nf 7 8 4 3\nf 8 5 1 4\n", out);
+    assert_int_equal(fclose(out), 0);
+}
+
+/* Particles over a floor run at a face that leans away from them, stands upright, or overhangs by a hundredth. None
+   comes nearer to it than contact permits or it was. */
+static void check_face(double lean)
+{
+    char folder[] = "/tmp/sb_contact_XXXXXX", mesh[64], bodies[128];
+    assert_non_null(mkdtemp(folder));
+    snprintf(mesh, sizeof mesh, "%s/wedge.obj", folder);
+    write_wedge(mesh, lean);
+    snprintf(bodies, sizeof bodies, "[{name: wedge, shape: mesh, file: %s}]", mesh);
+    basin b;
+    basin_fill(&b, 3, "1", "[30, 30, 12]", "{boxes: [{min: [1, 1, 1], max: [7, 5, 5]}]}", bodies, "completed");
+    sb_sim *sim = b.sim;
+    const sb_vec3 normal = sb_normalize(sb_vec(-1, 0, lean));
+    for (size_t i = 0; i < sim->state.n; i++) {
+        const double height = 0.3 + 1.2 * sb_random(7, i), away = 0.05 + 0.4 * sb_random(8, i);
+        const sb_vec3 foot = sb_vec(20 + height * lean, 5 + 20 * sb_random(9, i), height);
+        sim->state.position[i] = sb_space_record(&sim->space, sb_madd(foot, away, normal));
+    }
+    assert_int_equal(tank_prepare(sim, 1), 0);
+    size_t stopped = 0;
+    for (size_t g = 0; g < sim->groups.count; g++)
+        for (size_t i = sim->groups.group[g].first; i < sim->groups.group[g].end; i++) {
+            const sb_vec3 at = sb_sim_particle(sim, i).position, foot = sb_vec(20, at.y, 0);
+            const double before = sb_dot(normal, sb_sub(at, foot));
+            size_t count;
+            sb_f4 given = {0};
+            const sb_f4 v = resolved(sim, &sim->groups.group[g], i, (sb_f4){0.8f, 0, -0.05f, 0}, &count, &given);
+            const sb_vec3 end = sb_add(at, sb_vec((double)v[0], (double)v[1], (double)v[2]));
+            const double after = sb_dot(normal, sb_sub(end, foot));
+            stopped += count > 0;
+            if (after < fmin(before, 0.1) - 1e-3) fail_msg("from %g to %g spacings before the face", before, after);
+        }
+    assert_true(stopped > 30);
+    basin_free(&b);
+    (void)remove(mesh);
+    (void)remove(folder);
+}
+
+static void a_floor_does_not_hide_a_wall(void **state)
+{
+    (void)state;
+    static const double leans[] = {5.67, 1, 0.58, 0.01, 0, -0.01}; /* 10, 45, 60 degrees and about 90 */
+    for (size_t k = 0; k < sizeof leans / sizeof *leans; k++) check_face(leans[k]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(only_settling_moves_out_water_at_rest),
         cmocka_unit_test(approaching_particles_are_stopped_without_energy_gain),
+        cmocka_unit_test(particles_follow_a_convex_surface),
+        cmocka_unit_test(a_floor_does_not_hide_a_wall),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

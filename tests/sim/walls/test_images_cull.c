@@ -202,7 +202,7 @@ static void relate(void)
             near.meets[a][b] = a != b && along < SB_BENT;
             near.sectors[a][b] = !near.meets[a][b]      ? 0
                                  : fabsf(along) < 1e-3f ? 2
-                                 : along < -0.9f        ? INFINITY
+                                 : along < -0.9999f     ? INFINITY
                                                         : (float)M_PI / acosf(-along);
             near.blunt[a] |= near.sectors[a][b] < 2 && near.sectors[a][b] > SB_SECTORS_LEAST;
         }

@@ -7,7 +7,7 @@
 /* How the facets near a group stand to each other: sets of facets, most of them by facet. */
 typedef struct sb_relations {
     sb_facet_set next[SB_NEAR_MAX];    /* a path reflected at this facet may be reflected there later */
-    sb_facet_set crooked[SB_NEAR_MAX]; /* they meet it at another than a right angle, and do not face it */
+    sb_facet_set crooked[SB_NEAR_MAX]; /* they meet it at another than a right angle, and are not parallel to it */
     sb_facet_set blunt[SB_NEAR_MAX];   /* they meet it at more than a right angle */
     /* Found with sb_near_facet.parts, unless near.simple: */
     sb_facet_set hide[SB_NEAR_MAX];  /* they may hide a path reflected at this facet */
@@ -21,7 +21,7 @@ typedef struct sb_route {
     int depth;
     size_t last;
     bool square;        /* all facets stand at right angles to each other */
-    bool crooked;       /* some meet at another than a right angle, and do not face each other */
+    bool crooked;       /* some meet at another than a right angle, and are not parallel */
     bool beyond;        /* one of them has no part of it */
     bool away;          /* the image is not near the group */
     bool blunt;         /* one of its facets meets any other at more than a right angle */
