@@ -24,9 +24,9 @@ static const struct {
     const char *name, *file, *resolution;
     uint64_t fused, plain;
 } scenes[] = {
-    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0x620ebd044111b189,
-     0x52690d3339122ee0},
-    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0x76c96ada8590e5f0, 0x47c46307b510398b},
+    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0xe94d58d02a123aed,
+     0x6d14126086804d25},
+    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0x8c0f03bdf61fb388, 0xf068049a6016fcc4},
 };
 
 static const char settle[] = "numerics.settle_steps=20";
