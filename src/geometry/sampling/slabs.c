@@ -1,8 +1,8 @@
 /* Samples slab after slab, so that a particle depends only on what is near, and so that little is in memory at a time.
 
    In each stage the even slabs come first: no slab beside them is in this stage yet, so that they do not depend on each
-   other. The odd ones then see what was placed beside them. A slab is begun as soon as those beside it have done what it
-   sees, and is visited as soon as no other slab sees it any more.
+   other. The odd ones then see what was placed beside them. A slab is begun as soon as those beside it have done what
+   it sees, and is visited as soon as no other slab sees it any more.
 
    Voids are filled row after row of a slab: a surface that lies along a slab has many. */
 #include "geometry/sampling/parts.h"
@@ -10,8 +10,8 @@
 #include "base/memory.h"
 #include "base/stop.h"
 
-/* In spacings: width of a slab, length of a row of it, and distance of the first border from the domain's side less one width. The latter is
-   no round number, so that no face of a usual scene lies in a border. */
+/* In spacings: width of a slab, length of a row of it, and distance of the first border from the domain's side less one
+   width. The latter is no round number, so that no face of a usual scene lies in a border. */
 static const double WIDTH = 16, LENGTH = 256, SHIFT = 1.888;
 
 /* A stage of the turn `turn` is that of slab 2 turn - behind. Before it, the slabs beside this one have passed the
@@ -28,7 +28,9 @@ static sb_slabs across(const sb_sample_settings *settings, int axis, double widt
     const double length = sb_sample_along(sb_sub(settings->max, settings->min), axis);
     const double shift = SHIFT * settings->spacing, count = floor((length - shift) / (width * settings->spacing));
     return (sb_slabs){axis, sb_sample_along(settings->min, axis) + shift, width * settings->spacing,
-                      count < 1 ? 1 : count < (double)UINT32_MAX / 4 ? (uint32_t)count : UINT32_MAX / 4};
+                      count < 1                        ? 1
+                      : count < (double)UINT32_MAX / 4 ? (uint32_t)count
+                                                       : UINT32_MAX / 4};
 }
 
 void sb_slabs_choose(const sb_sample_settings *settings, sb_slabs *slabs, sb_slabs *rows)

@@ -12,7 +12,8 @@ static int tear_down(void **state)
     return 0;
 }
 
-/* Ground 168 long and 12 wide with a steep slope across the slabs, a tilted box, and two balls over borders of slabs. */
+/* Ground 168 long and 12 wide with a steep slope across the slabs, a tilted box, and two balls over borders of slabs.
+ */
 static void landscape(void)
 {
     sb_error error;
