@@ -154,15 +154,21 @@ static bool meets(const sb_sampler *sampler, const sb_vec3 corner[3])
     return sb_slab_meets(sampler, fmin(a, fmin(b, c)), fmax(a, fmax(b, c)), slack * sampler->settings.spacing);
 }
 
+/* Chooses the lattices of a surface's planes, once for all slabs. */
+static int choose_lattices(const sb_sampler *sampler, uint32_t index, sb_surface *surface)
+{
+    if (surface->lattices) return 0;
+    surface->lattices = sb_alloc_untouched(sb_surface_mesh(surface)->triangle_count, sizeof *surface->lattices);
+    return surface->lattices ? sb_sample_planes(sampler, index, surface->lattices) : -1;
+}
+
 static int scan_faces(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index)
 {
-    const sb_surface *surface = sampler->surfaces + index;
+    sb_surface *surface = sampler->surfaces + index;
     const sb_mesh *mesh = sb_surface_mesh(surface);
-    sb_lattice *lattices = sb_alloc_untouched(mesh->triangle_count, sizeof *lattices);
-    if (!lattices) return -1;
-    int failed = sb_sample_planes(sampler, index, lattices);
+    int failed = choose_lattices(sampler, index, surface);
     for (size_t t = 0; t < mesh->triangle_count && !failed; ++t) {
-        const sb_lattice *l = lattices + surface->region[t];
+        const sb_lattice *l = surface->lattices + surface->region[t];
         if (!l->suits) continue;
         sb_vec3 corner[3];
         corners_of(mesh, t, corner);
@@ -170,7 +176,6 @@ static int scan_faces(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t i
         failed = scan_triangle(sampler, batch, l, corner,
                                (sb_candidate){.inward = sb_scale(surface->normal[t], -1), .surface = index});
     }
-    sb_free(lattices);
     return failed;
 }
 

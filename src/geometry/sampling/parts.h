@@ -44,7 +44,8 @@ typedef struct sb_surface {
     /* Per triangle, unit, towards the water. Zero for a degenerate triangle, and for one in a periodic side, which is
        no surface. */
     sb_vec3 *normal;
-    uint32_t *region; /* per triangle: first triangle of its plane */
+    uint32_t *region;            /* per triangle: first triangle of its plane */
+    struct sb_lattice *lattices; /* of each plane, at index of its first triangle; NULL: not chosen yet */
     size_t crease_count, crease_capacity, cap_count, cap_capacity, ridge_count, ridge_capacity;
     sb_crease *creases;
     sb_cap *caps;

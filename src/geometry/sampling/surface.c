@@ -232,6 +232,7 @@ void sb_surface_free(sb_surface *surface)
 {
     sb_free(surface->normal);
     sb_free(surface->region);
+    sb_free(surface->lattices);
     sb_free(surface->creases);
     sb_free(surface->caps);
     sb_free(surface->ridges);
