@@ -38,41 +38,54 @@ void sb_ranks_gather(sb_ranks *ranks, const void *own, size_t size, void *all)
     ranks->bytes_sent += ((uint64_t)ranks->count - 1) * size;
 }
 
-/* Sends `size` bytes to a rank and receives as many from it; NULL: does not. */
-static void swap(sb_ranks *ranks, int other, void *out, void *in, size_t size)
-{
-    const sb_parcel send = {other, out, size}, receive = {other, in, size};
-    sb_ranks_start(ranks, &send, out != NULL, &receive, in != NULL);
-    sb_ranks_finish(ranks);
-}
-
 /* Adds another rank's `count` values to the own ones. */
 typedef void merger(void *values, const void *others, size_t count);
 
-/* Merges the values of all ranks, `size` bytes in all, in place: pairs of ranks exchange what they have so far, so that
-   after log2 N rounds each rank has that of all. Ranks beyond a power of two give theirs to another rank, and get the
-   result from it. The result may not depend on the order: it is one of integers, or a maximum. */
+/* One exchange with another rank. */
+typedef struct exchange {
+    int other;
+    bool sends, receives, result; /* result: what it receives is that of all */
+} exchange;
+
+/* Finds a rank's exchange of a round: pairs of ranks exchange what they have so far, so that after log2 N rounds each
+   rank has that of all. Ranks beyond a power of two give theirs to another rank, and get the result from it. Returns
+   false after the last one. */
+static bool find_exchange(const sb_ranks *ranks, int round, exchange *found)
+{
+    const int own = ranks->rank;
+    int paired = 1, rounds = 0;
+    for (; 2 * paired <= ranks->count; paired *= 2) rounds++;
+    const bool has_other = own < ranks->count - paired;
+    if (own >= paired) {
+        *found = (exchange){own - paired, .sends = round == 0, .receives = round == 1, .result = round == 1};
+        return round < 2;
+    }
+    if (has_other && (round == 0 || round == rounds + 1)) {
+        *found = (exchange){own + paired, .sends = round > 0, .receives = round == 0};
+        return true;
+    }
+    const int step = round - (has_other ? 1 : 0);
+    *found = (exchange){step < rounds ? own ^ 1 << step : own, .sends = true, .receives = true};
+    return step < rounds;
+}
+
+static void start_exchange(sb_ranks *ranks, const exchange *with, void *out, void *in, size_t size)
+{
+    const sb_parcel send = {with->other, out, size}, receive = {with->other, in, size};
+    sb_ranks_start(ranks, &send, with->sends, &receive, with->receives);
+}
+
+/* Merges the values of all ranks, `size` bytes in all, in place. The result may not depend on the order: it is one of
+   integers, or a maximum. */
 static void merge_all(sb_ranks *ranks, void *values, size_t size, size_t count, merger *merge)
 {
     char others[ROOM];
-    const int own = ranks->rank;
-    int paired = 1;
-    while (2 * paired <= ranks->count) paired *= 2;
-    const int beyond = ranks->count - paired;
-    if (own >= paired) {
-        swap(ranks, own - paired, values, NULL, size);
-        swap(ranks, own - paired, NULL, values, size);
-        return;
+    exchange with;
+    for (int round = 0; find_exchange(ranks, round, &with); round++) {
+        start_exchange(ranks, &with, values, with.result ? values : others, size);
+        sb_ranks_finish(ranks);
+        if (with.receives && !with.result) merge(values, others, count);
     }
-    if (own < beyond) {
-        swap(ranks, own + paired, NULL, others, size);
-        merge(values, others, count);
-    }
-    for (int step = 1; step < paired; step *= 2) {
-        swap(ranks, own ^ step, values, others, size);
-        merge(values, others, count);
-    }
-    if (own < beyond) swap(ranks, own + paired, values, NULL, size);
 }
 
 /* The same of any number of values of `size` bytes each. */
@@ -99,28 +112,65 @@ void sb_ranks_sum(sb_ranks *ranks, sb_exact *values, size_t count)
     merge_list(ranks, values, sizeof *values, count, merge_sums);
 }
 
-typedef struct sums_and_largest {
-    double largest;
-    sb_exact sum[SB_RANKS_SUMS];
-} sums_and_largest;
+/* ---- sums and a largest value ---- */
 
-static void merge_sums_and_largest(void *values, const void *others, size_t count)
+static size_t bytes_of(const sb_flying_sums *flying)
 {
-    sums_and_largest *own = values;
-    double largest;
-    memcpy(&largest, others, sizeof largest);
-    own->largest = largest > own->largest ? largest : own->largest;
-    merge_sums(own->sum, (const char *)others + offsetof(sums_and_largest, sum), count);
+    return (size_t)((const char *)&flying->own.sum[flying->count] - (const char *)&flying->own);
+}
+
+/* Starts the exchange of the present round, if there is one. */
+static void start_round(sb_ranks *ranks, sb_flying_sums *flying)
+{
+    exchange with;
+    flying->under_way = find_exchange(ranks, flying->round, &with);
+    if (flying->under_way) start_exchange(ranks, &with, &flying->own, &flying->others, bytes_of(flying));
+}
+
+/* Ends the exchange of the present round, and starts the next one. */
+static void end_round(sb_ranks *ranks, sb_flying_sums *flying)
+{
+    exchange with;
+    (void)find_exchange(ranks, flying->round++, &with);
+    sb_ranks_finish(ranks);
+    if (with.result) {
+        memcpy(&flying->own, &flying->others, bytes_of(flying));
+    } else if (with.receives) {
+        if (flying->others.largest > flying->own.largest) flying->own.largest = flying->others.largest;
+        merge_sums(flying->own.sum, flying->others.sum, flying->count);
+    }
+    start_round(ranks, flying);
+}
+
+void sb_ranks_sum_begin(sb_ranks *ranks, sb_flying_sums *flying, const sb_exact *values, size_t count, double value)
+{
+    flying->count = count;
+    flying->round = 0;
+    flying->own.largest = value;
+    if (count > 0) memcpy(flying->own.sum, values, count * sizeof *values);
+    start_round(ranks, flying);
+}
+
+bool sb_ranks_sum_arrived(sb_ranks *ranks, sb_flying_sums *flying)
+{
+    bool (*const arrived)(sb_ranks *) = ranks->transport->arrived;
+    while (flying->under_way && arrived && arrived(ranks)) end_round(ranks, flying);
+    return !flying->under_way || !arrived;
+}
+
+double sb_ranks_sum_end(sb_ranks *ranks, sb_flying_sums *flying, sb_exact *values)
+{
+    while (flying->under_way) end_round(ranks, flying);
+    if (flying->count > 0) memcpy(values, flying->own.sum, flying->count * sizeof *values);
+    return flying->own.largest;
 }
 
 double sb_ranks_sum_and_largest(sb_ranks *ranks, sb_exact *values, size_t count, double value)
 {
     if (!sb_ranks_several(ranks)) return value;
-    sums_and_largest own = {.largest = value};
-    if (count > 0) memcpy(own.sum, values, count * sizeof *values);
-    merge_all(ranks, &own, offsetof(sums_and_largest, sum) + count * sizeof *values, count, merge_sums_and_largest);
-    if (count > 0) memcpy(values, own.sum, count * sizeof *values);
-    return own.largest;
+    sb_flying_sums flying = {.under_way = false};
+    sb_ranks_sum_begin(ranks, &flying, values, count, value);
+    return sb_ranks_sum_end(ranks, &flying, values);
 }
 
 static void merge_counts(void *values, const void *others, size_t count)

@@ -32,6 +32,8 @@ typedef struct sb_transport {
     /* Moves the messages between `start` and `finish` on, without waiting. By the thread that calls the others. NULL:
        they move on their own. */
     void (*progress)(sb_ranks *ranks);
+    /* Moves them on, and returns whether what is to come has come. NULL: not known before `finish`. */
+    bool (*arrived)(sb_ranks *ranks);
     /* all: count * size bytes, by rank; the own ones as well. */
     void (*gather)(sb_ranks *ranks, const void *own, size_t size, void *all);
     /* Files into which all ranks write, each on its own; NULL: none. `open` opens one that exists, write_at writes at a
@@ -82,6 +84,23 @@ void sb_ranks_sum(sb_ranks *ranks, sb_exact *values, size_t count);
 /* The same, and returns the largest value of all ranks; count <= SB_RANKS_SUMS. */
 enum { SB_RANKS_SUMS = 8 };
 double sb_ranks_sum_and_largest(sb_ranks *ranks, sb_exact *values, size_t count, double value);
+
+/* Sums and a largest value that are on their way to all ranks. Zero-initialised, none is. */
+typedef struct sb_flying_sums {
+    bool under_way;
+    int round; /* the present one of the exchanges of pairs of ranks */
+    size_t count;
+    struct {
+        double largest;
+        sb_exact sum[SB_RANKS_SUMS];
+    } own, others;
+} sb_flying_sums;
+/* sb_ranks_sum_and_largest in two parts, of several ranks: in between, no other function here may be called. `flying`
+   may not move. */
+void sb_ranks_sum_begin(sb_ranks *ranks, sb_flying_sums *flying, const sb_exact *values, size_t count, double value);
+double sb_ranks_sum_end(sb_ranks *ranks, sb_flying_sums *flying, sb_exact *values);
+/* Moves them on, and returns whether the end will not wait for other ranks, as far as that is known. */
+bool sb_ranks_sum_arrived(sb_ranks *ranks, sb_flying_sums *flying);
 void sb_ranks_add(sb_ranks *ranks, uint64_t *values, size_t count);
 /* The largest value of all ranks; no value is NaN. */
 double sb_ranks_largest(sb_ranks *ranks, double value);

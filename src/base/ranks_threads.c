@@ -123,6 +123,19 @@ static void take(member *m, const sb_parcel *parcel)
     pthread_mutex_unlock(&t->lock);
 }
 
+static bool arrived(sb_ranks *ranks)
+{
+    member *m = ranks->context;
+    bool all = true;
+    post(m, m->team->disturb ? m->posted + draw(m, m->sends - m->posted + 1) : m->sends);
+    if (m->team->disturb && draw(m, 2) == 0) return false;
+    pthread_mutex_lock(&m->team->lock);
+    for (size_t k = 0; k < m->receives; k++)
+        all = all && slot_of(m->team, m->receive[k].rank, ranks->rank)->bytes != NULL;
+    pthread_mutex_unlock(&m->team->lock);
+    return all;
+}
+
 static void finish(sb_ranks *ranks)
 {
     member *m = ranks->context;
@@ -204,6 +217,7 @@ static int close_file(void *file)
 static const sb_transport transport = {.name = "threads",
                                        .start = start,
                                        .finish = finish,
+                                       .arrived = arrived,
                                        .gather = gather,
                                        .open = open_file,
                                        .write_at = write_at,

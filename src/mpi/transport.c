@@ -57,6 +57,13 @@ static void progress(sb_ranks *ranks)
     if (w->left > 0) look(w);
 }
 
+static bool arrived(sb_ranks *ranks)
+{
+    const world *w = ranks->context;
+    progress(ranks);
+    return w->left == 0;
+}
+
 /* A rank whose message is not complete. */
 static int find_late(const world *w)
 {
@@ -97,6 +104,7 @@ const sb_transport sb_world_transport = {.name = "mpi",
                                          .start = start,
                                          .finish = finish,
                                          .progress = progress,
+                                         .arrived = arrived,
                                          .gather = gather,
                                          .open = sb_world_open,
                                          .write_at = sb_world_write_at,

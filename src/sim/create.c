@@ -147,6 +147,7 @@ sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_ranks *
     made->exchange = made->ranks ? &sb_exchange_domains : &sb_exchange_alone;
     made->policy = &sb_policy_run;
     made->needs = needs_of(scene, model);
+    made->needs.ahead = sb_ranks_several(ranks) && sb_pressure_solvers[scene->numerics.solver]->goes_ahead;
     sb_status status = SB_OK;
     if (model->fluid_count >= (size_t)1 << SB_INDEX_BITS)
         status = sb_fail(error, SB_BAD_INPUT, "%zu fluid particles: expected fewer than %d", model->fluid_count,

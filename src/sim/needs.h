@@ -22,6 +22,7 @@ typedef struct sb_needs {
     bool wcsph;              /* steps are explicit, in two halves (sim/wcsph/wcsph.h) */
     bool dynamic_walls;      /* boundary particles have a density of their own */
     bool direction, product; /* fields of the pressure solver */
+    bool ahead;              /* a sweep begins while the stopping test of the one before is on its way */
 } sb_needs;
 
 /* A row that exists if one of these flags is set has the flag's offset, or SB_ALWAYS. */

@@ -72,6 +72,12 @@ static int sums(sb_ranks *ranks, int round)
     for (int k = 0; k < VALUES; k++) sum[k] = (sb_exact){0}, sb_exact_add(&sum[k], k + ranks->rank);
     wrong += sb_ranks_sum_and_largest(ranks, sum, VALUES, ranks->rank == 0 ? 9.5 : -1) != 9.5;
     for (int k = 0; k < VALUES; k++) wrong += sb_exact_value(&sum[k]) != k * n + n * (n - 1) / 2;
+    sb_flying_sums flying = {.under_way = false};
+    for (int k = 0; k < VALUES; k++) sum[k] = (sb_exact){0}, sb_exact_add(&sum[k], k - ranks->rank);
+    if (n > 1) sb_ranks_sum_begin(ranks, &flying, sum, VALUES, ranks->rank == n - 1 ? 7.25 : -2);
+    for (int look = 0; n > 1 && look < round % 4 && !sb_ranks_sum_arrived(ranks, &flying); look++) continue;
+    wrong += n > 1 && (sb_ranks_sum_end(ranks, &flying, sum) != 7.25 || flying.under_way);
+    for (int k = 0; n > 1 && k < VALUES; k++) wrong += sb_exact_value(&sum[k]) != k * n - n * (n - 1) / 2;
     wrong += sb_ranks_any(ranks, false) || !sb_ranks_any(ranks, ranks->rank == round % n);
     return wrong;
 }

@@ -45,12 +45,12 @@ static sb_vec3 normal_of(const sb_sampler *sampler, const sb_sample *sample)
     return sb_normalize(sum);
 }
 
-void sb_sample_round_edges(const sb_sampler *sampler, sb_sample_set *all)
+void sb_sample_round_edges(const sb_sampler *sampler, sb_sample *found, size_t count)
 {
-#pragma omp parallel for schedule(dynamic, 256)
-    for (size_t i = 0; i < all->count; ++i) {
-        const sb_surface *surface = sampler->surfaces + all->sample[i].source;
+#pragma omp parallel for schedule(dynamic, 64)
+    for (size_t i = 0; i < count; ++i) {
+        const sb_surface *surface = sampler->surfaces + found[i].source;
         if (surface->source->role == SB_ROLE_SOLID && !surface->mixed && !sb_stop_signal())
-            all->sample[i].normal = normal_of(sampler, &all->sample[i]);
+            found[i].normal = normal_of(sampler, &found[i]);
     }
 }

@@ -34,7 +34,8 @@ int sb_candidate_flush(sb_sampler *sampler, sb_candidate_batch *batch)
     for (size_t i = 0; i < batch->count && !failed; ++i) {
         const sb_candidate *c = batch->candidate + i;
         if (batch->good[i] && !sb_sample_set_any(&sampler->set, c->at, least))
-            failed = sb_sample_set_add(&sampler->set, &(sb_sample){c->at, sb_scale(c->inward, -1), c->surface});
+            failed = sb_sample_set_add(&sampler->set,
+                                       &(sb_sample){c->at, sb_scale(c->inward, -1), c->surface, sampler->slab});
     }
     batch->count = 0;
     return failed;
@@ -42,6 +43,7 @@ int sb_candidate_flush(sb_sampler *sampler, sb_candidate_batch *batch)
 
 int sb_candidate_push(sb_sampler *sampler, sb_candidate_batch *batch, sb_candidate candidate)
 {
+    if (!sb_slab_owns(sampler, candidate.at)) return 0;
     batch->candidate[batch->count++] = candidate;
     return batch->count == SB_SAMPLE_BATCH ? sb_candidate_flush(sampler, batch) : 0;
 }
@@ -59,23 +61,29 @@ static void to_lattice(const sb_lattice *l, const sb_vec3 corner[3], double u[3]
 /* In lattice steps: tolerance that keeps points on an edge despite rounding. */
 static const double slack = 1e-9;
 
-/* Computes the middle and half the extent of the sampled region along a direction. Particles farther outside of the
-   domain than a support radius are dropped, so they need not be generated. */
-static void region_along(const sb_sample_settings *settings, sb_vec3 along, double *middle, double *half)
+/* Computes the middle and half the extent of the current slab's sampled region along a direction. Particles farther
+   outside of the domain than a support radius are dropped, so they need not be generated. */
+static void region_along(const sb_sampler *sampler, sb_vec3 along, double *middle, double *half)
 {
+    const sb_sample_settings *settings = &sampler->settings;
     const double margin = settings->support + settings->offset + 4 * settings->spacing;
-    sb_vec3 size = sb_scale(sb_sub(settings->max, settings->min), 0.5);
+    double low[3] = {settings->min.x, settings->min.y, settings->min.z};
+    double high[3] = {settings->max.x, settings->max.y, settings->max.z};
+    low[sampler->slabs.axis] = fmax(low[sampler->slabs.axis], sampler->low);
+    high[sampler->slabs.axis] = fmin(high[sampler->slabs.axis], sampler->high);
+    const sb_vec3 min = sb_vec(low[0], low[1], low[2]), max = sb_vec(high[0], high[1], high[2]);
+    sb_vec3 size = sb_scale(sb_sub(max, min), 0.5);
     if (settings->dimensions == 2) size.y = 1e3 * settings->spacing;
-    *middle = sb_dot(sb_scale(sb_add(settings->max, settings->min), 0.5), along);
+    *middle = sb_dot(sb_scale(sb_add(max, min), 0.5), along);
     *half = fabs(along.x) * (size.x + margin) + fabs(along.y) * (size.y + margin) + fabs(along.z) * (size.z + margin);
 }
 
-/* Reduces [low, high], in steps along a direction from a point, to the sampled region. */
-static void cut_to_region(const sb_sample_settings *settings, sb_vec3 from, sb_vec3 along, double step, double *low,
+/* Reduces [low, high], in steps along a direction from a point, to the slab's sampled region. */
+static void cut_to_region(const sb_sampler *sampler, sb_vec3 from, sb_vec3 along, double step, double *low,
                           double *high)
 {
     double middle, half;
-    region_along(settings, along, &middle, &half);
+    region_along(sampler, along, &middle, &half);
     middle -= sb_dot(from, along);
     *low = fmax(*low, (middle - half) / step);
     *high = fmin(*high, (middle + half) / step);
@@ -107,8 +115,8 @@ static int scan_triangle(sb_sampler *sampler, sb_candidate_batch *batch, const s
     double area = (u[1] - u[0]) * (v[2] - v[0]) - (u[2] - u[0]) * (v[1] - v[0]);
     if (!(fabs(area) > 1e-12)) return 0;
     double region_first = -HUGE_VAL, region_last = HUGE_VAL;
-    cut_to_region(&sampler->settings, l->origin, l->v, l->step_v, &low, &high);
-    cut_to_region(&sampler->settings, l->origin, l->u, l->step_u, &region_first, &region_last);
+    cut_to_region(sampler, l->origin, l->v, l->step_v, &low, &high);
+    cut_to_region(sampler, l->origin, l->u, l->step_u, &region_first, &region_last);
     if (!(low <= high)) return 0;
     int64_t end = (int64_t)floor(high - 0.5 + slack);
     for (int64_t n = (int64_t)ceil(low - 0.5 - slack); n <= end; ++n) {
@@ -137,22 +145,37 @@ static void corners_of(const sb_mesh *mesh, size_t t, sb_vec3 corner[3])
     for (int i = 0; i < 3; ++i) corner[i] = mesh->vertices[mesh->triangles[t][i]];
 }
 
+/* Whether a part of a triangle lies in the current slab. */
+static bool meets(const sb_sampler *sampler, const sb_vec3 corner[3])
+{
+    const int axis = sampler->slabs.axis;
+    const double a = sb_sample_along(corner[0], axis), b = sb_sample_along(corner[1], axis);
+    const double c = sb_sample_along(corner[2], axis);
+    return sb_slab_meets(sampler, fmin(a, fmin(b, c)), fmax(a, fmax(b, c)), slack * sampler->settings.spacing);
+}
+
+/* Chooses the lattices of a surface's planes, once for all slabs. */
+static int choose_lattices(const sb_sampler *sampler, uint32_t index, sb_surface *surface)
+{
+    if (surface->lattices) return 0;
+    surface->lattices = sb_alloc_untouched(sb_surface_mesh(surface)->triangle_count, sizeof *surface->lattices);
+    return surface->lattices ? sb_sample_planes(sampler, index, surface->lattices) : -1;
+}
+
 static int scan_faces(sb_sampler *sampler, sb_candidate_batch *batch, uint32_t index)
 {
-    const sb_surface *surface = sampler->surfaces + index;
+    sb_surface *surface = sampler->surfaces + index;
     const sb_mesh *mesh = sb_surface_mesh(surface);
-    sb_lattice *lattices = sb_alloc_untouched(mesh->triangle_count, sizeof *lattices);
-    if (!lattices) return -1;
-    int failed = sb_sample_planes(sampler, index, lattices);
+    int failed = choose_lattices(sampler, index, surface);
     for (size_t t = 0; t < mesh->triangle_count && !failed; ++t) {
-        const sb_lattice *l = lattices + surface->region[t];
+        const sb_lattice *l = surface->lattices + surface->region[t];
         if (!l->suits) continue;
         sb_vec3 corner[3];
         corners_of(mesh, t, corner);
+        if (!meets(sampler, corner)) continue;
         failed = scan_triangle(sampler, batch, l, corner,
                                (sb_candidate){.inward = sb_scale(surface->normal[t], -1), .surface = index});
     }
-    sb_free(lattices);
     return failed;
 }
 
@@ -168,7 +191,7 @@ static int scan_line(sb_sampler *sampler, sb_candidate_batch *batch, sb_vec3 a, 
         begin = step * (ceil(from / step - 0.5 - slack) + 0.5) - from;
     }
     double low = 0, high = floor((length - begin) / step + 1e-9);
-    cut_to_region(&sampler->settings, sb_madd(a, begin, along), along, step, &low, &high);
+    cut_to_region(sampler, sb_madd(a, begin, along), along, step, &low, &high);
     if (!(low <= high)) return 0;
     const int64_t end = (int64_t)floor(high);
     for (int64_t n = (int64_t)ceil(low); n <= end; ++n) {

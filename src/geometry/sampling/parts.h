@@ -44,13 +44,20 @@ typedef struct sb_surface {
     /* Per triangle, unit, towards the water. Zero for a degenerate triangle, and for one in a periodic side, which is
        no surface. */
     sb_vec3 *normal;
-    uint32_t *region; /* per triangle: first triangle of its plane */
-    uint32_t *part;   /* per triangle: first triangle of its connected part */
+    uint32_t *region;            /* per triangle: first triangle of its plane */
+    struct sb_lattice *lattices; /* of each plane, at index of its first triangle; NULL: not chosen yet */
     size_t crease_count, crease_capacity, cap_count, cap_capacity, ridge_count, ridge_capacity;
     sb_crease *creases;
     sb_cap *caps;
     sb_ridge *ridges; /* of solids only */
 } sb_surface;
+
+/* Slabs across an axis of the domain. The first and the last one have no outer border. */
+typedef struct sb_slabs {
+    int axis;
+    double from, width; /* m, lower border of the first slab, if it had one; width of each */
+    uint32_t count;
+} sb_slabs;
 
 typedef struct sb_sampler {
     sb_sample_settings settings;
@@ -58,6 +65,9 @@ typedef struct sb_sampler {
     sb_surface *surfaces;
     bool moving;          /* the current group: one moving surface, or all static ones */
     uint32_t first, last; /* surfaces of the group: those in [first, last) whose source->moving equals `moving` */
+    sb_slabs slabs, rows; /* across the longest axis of the domain, and across the longest of the others */
+    uint32_t slab, row;   /* the current slab, and the current row of it, which only the filling of voids has */
+    double low, high;     /* m, the slab's borders; infinite at the ends */
     sb_sample_set set;
 } sb_sampler;
 
@@ -73,12 +83,31 @@ static inline double sb_sample_beyond(const sb_sample_settings *settings, sb_vec
                 sb_sample_along(at, axis) - sb_sample_along(settings->max, axis));
 }
 
+/* Returns the slab of a point. */
+static inline uint32_t sb_slab_of(const sb_slabs *slabs, sb_vec3 at)
+{
+    const double k = floor((sb_sample_along(at, slabs->axis) - slabs->from) / slabs->width);
+    return k < 1 ? 0 : k < (double)slabs->count ? (uint32_t)k : slabs->count - 1;
+}
+
+/* Whether a point belongs to the current slab. */
+static inline bool sb_slab_owns(const sb_sampler *sampler, sb_vec3 at)
+{
+    return sb_slab_of(&sampler->slabs, at) == sampler->slab;
+}
+
+/* Whether a part of the range between two numbers along the slabs' axis is within `margin` of the current slab. */
+static inline bool sb_slab_meets(const sb_sampler *sampler, double low, double high, double margin)
+{
+    return low <= sampler->high + margin && high >= sampler->low - margin;
+}
+
 static inline const sb_mesh *sb_surface_mesh(const sb_surface *surface)
 {
     return surface->source->mesh;
 }
 
-/* Finds the orientation, planes, parts and creases of a source's mesh. */
+/* Finds the orientation, planes and creases of a source's mesh. */
 sb_status sb_surface_build(const sb_sample_source *source, const sb_sample_settings *settings, sb_surface *surface,
                            sb_error *error);
 void sb_surface_free(sb_surface *surface);
@@ -127,14 +156,22 @@ bool sb_sample_fits(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_
 /* Finds the point of the boundary surface nearest to `at`, which is near the boundary surface of this surface. */
 bool sb_sample_project(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, sb_sample *sample);
 
-/* Stages of the sampling. Each adds to sampler->set and returns nonzero without memory, or if the process is to
-   stop. */
+/* Stages of the sampling of the current slab. Each adds particles of this slab to sampler->set, and sees those that are
+   near in the slabs beside it. Returns nonzero without memory, or if the process is to stop. */
 int sb_sample_lattices(sb_sampler *sampler);
 int sb_sample_grow(sb_sampler *sampler);
 int sb_sample_voids(sb_sampler *sampler);
 
+/* Chooses the slabs and rows of a domain. */
+void sb_slabs_choose(const sb_sample_settings *settings, sb_slabs *slabs, sb_slabs *rows);
+/* Samples the slabs [first, last) of the current group. Visits the particles of each slab when they are final, slab
+   after slab. Nothing that is visited depends on `first` and `last`. The visitor may change the particles. Returns
+   nonzero if the visitor does, without memory, or if the process is to stop. */
+typedef int sb_slab_visit(void *context, sb_sample *found, size_t count);
+int sb_slabs_sample(sb_sampler *sampler, uint32_t first, uint32_t last, sb_slab_visit *visit, void *context);
+
 /* Sets the normals of particles along convex edges of solids to the mean normal of the faces that meet there. */
-void sb_sample_round_edges(const sb_sampler *sampler, sb_sample_set *all);
+void sb_sample_round_edges(const sb_sampler *sampler, sb_sample *found, size_t count);
 
 /* Candidates for particles. They are collected one by one, placed in parallel, and accepted in their order. */
 typedef struct sb_candidate {

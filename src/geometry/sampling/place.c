@@ -206,5 +206,6 @@ bool sb_sample_project(const sb_sampler *sampler, uint32_t surface, sb_vec3 at, 
     if (sampler->settings.dimensions == 2) sample->at.y = 0;
     sample->normal = sb_scale(inward, -1);
     sample->source = surface;
+    sample->slab = sampler->slab;
     return true;
 }

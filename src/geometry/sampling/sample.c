@@ -19,46 +19,6 @@ void sb_samples_free(sb_samples *samples)
     *samples = (sb_samples){0};
 }
 
-/* Samples the current group into sampler->set. */
-static int sample_group(sb_sampler *sampler)
-{
-    return sb_sample_lattices(sampler) || sb_sample_grow(sampler) || sb_sample_voids(sampler);
-}
-
-/* Appends the group's particles except duplicates of earlier ones. near: distance of duplicates, m; 0: keep all. */
-static int collect(sb_sample_set *found, double near, sb_sample_set *all)
-{
-    for (size_t i = 0; i < found->count; ++i)
-        if (sb_stop_signal() || (!(near > 0 && sb_sample_set_any(all, found->sample[i].at, near)) &&
-                                 sb_sample_set_add(all, found->sample + i)))
-            return -1;
-    sb_sample_set_free(found);
-    return 0;
-}
-
-/* Samples the static surfaces together, then each moving surface alone. */
-static int sample_groups(sb_sampler *sampler, sb_sample_set *all)
-{
-    sampler->moving = false;
-    sampler->first = 0;
-    sampler->last = (uint32_t)sampler->surface_count;
-    sampler->set = *all;
-    int failed = sample_group(sampler);
-    *all = sampler->set;
-    sampler->set = (sb_sample_set){.cell = all->cell, .origin = all->origin};
-    sampler->moving = true;
-    sb_sample_set moving = {.cell = all->cell, .origin = all->origin};
-    for (uint32_t i = 0; i < sampler->surface_count && !failed; ++i) {
-        sampler->first = i;
-        sampler->last = i + 1;
-        if (sb_sampler_takes(sampler, i))
-            failed = sample_group(sampler) || collect(&sampler->set, same_place * sampler->settings.spacing, &moving);
-    }
-    failed = failed || collect(&moving, 0, all);
-    sb_sample_set_free(&moving);
-    return failed;
-}
-
 /* Whether a particle belongs to the domain. A particle beyond a periodic side is the image of a particle within the
    opposite side. */
 static bool belongs(const sb_sample_settings *settings, sb_vec3 at)
@@ -68,32 +28,94 @@ static bool belongs(const sb_sample_settings *settings, sb_vec3 at)
     return true;
 }
 
-/* Removes the particles that do not belong to the domain. */
-static void clip(const sb_sample_settings *settings, sb_sample_set *all)
+/* Particles of one source. */
+typedef struct share {
+    size_t count, position_capacity, normal_capacity;
+    sb_vec3 *position, *normal;
+} share;
+
+/* What is collected of all groups. */
+typedef struct collection {
+    const sb_sampler *sampler;
+    share *shares;        /* per source */
+    sb_sample_set moving; /* particles of all moving surfaces */
+} collection;
+
+static int add(share *to, const sb_sample *one)
 {
-    size_t kept = 0;
-    for (size_t i = 0; i < all->count; ++i)
-        if (belongs(settings, all->sample[i].at)) all->sample[kept++] = all->sample[i];
-    all->count = kept;
+    if (sb_grow((void **)&to->position, &to->position_capacity, to->count + 1, sizeof *to->position) ||
+        sb_grow((void **)&to->normal, &to->normal_capacity, to->count + 1, sizeof *to->normal))
+        return -1;
+    to->position[to->count] = one->at;
+    to->normal[to->count++] = one->normal;
+    return 0;
 }
 
-/* Sorts the particles by source. Those of one source stay in the order in which they were found. */
-static int sort_out(const sb_sample_set *all, size_t source_count, sb_samples *out)
+static void release(share *of)
 {
-    *out = (sb_samples){.count = all->count, .source_count = source_count};
-    out->begin = sb_alloc(source_count + 2, sizeof *out->begin);
-    out->position = sb_alloc_untouched(all->count, sizeof *out->position);
-    out->normal = sb_alloc_untouched(all->count, sizeof *out->normal);
-    if (!out->begin || !out->position || !out->normal) {
+    sb_free(of->position);
+    sb_free(of->normal);
+    *of = (share){.count = 0};
+}
+
+/* Keeps the particles that belong to the domain. */
+static int keep(void *context, sb_sample *found, size_t count)
+{
+    collection *all = context;
+    size_t kept = 0;
+    for (size_t i = 0; i < count; ++i)
+        if (belongs(&all->sampler->settings, found[i].at)) found[kept++] = found[i];
+    sb_sample_round_edges(all->sampler, found, kept);
+    for (size_t i = 0; i < kept; ++i)
+        if (sb_stop_signal() || add(&all->shares[found[i].source], &found[i])) return -1;
+    return 0;
+}
+
+/* Collects particles of moving surfaces except duplicates. */
+static int keep_moving(void *context, sb_sample *found, size_t count)
+{
+    collection *all = context;
+    const double near = same_place * all->sampler->settings.spacing;
+    for (size_t i = 0; i < count; ++i)
+        if (sb_stop_signal() ||
+            (!sb_sample_set_any(&all->moving, found[i].at, near) && sb_sample_set_add(&all->moving, &found[i])))
+            return -1;
+    return 0;
+}
+
+/* Samples the static surfaces together, then each moving surface alone. */
+static int sample_groups(sb_sampler *sampler, collection *all)
+{
+    sampler->moving = false;
+    sampler->first = 0;
+    sampler->last = (uint32_t)sampler->surface_count;
+    int failed = sb_slabs_sample(sampler, 0, sampler->slabs.count, keep, all);
+    sampler->moving = true;
+    for (uint32_t i = 0; i < sampler->surface_count && !failed; ++i) {
+        sampler->first = i;
+        sampler->last = i + 1;
+        if (sb_sampler_takes(sampler, i)) failed = sb_slabs_sample(sampler, 0, sampler->slabs.count, keep_moving, all);
+    }
+    return failed || keep(all, all->moving.sample, all->moving.count);
+}
+
+/* Joins the particles of all sources, one source after another, and frees them. */
+static int join(share *shares, size_t source_count, sb_samples *out)
+{
+    *out = (sb_samples){.source_count = source_count, .begin = sb_alloc(source_count + 1, sizeof *out->begin)};
+    if (!out->begin) return -1;
+    for (size_t s = 0; s < source_count; ++s) out->begin[s + 1] = out->count += shares[s].count;
+    out->position = sb_alloc_untouched(out->count, sizeof *out->position);
+    out->normal = sb_alloc_untouched(out->count, sizeof *out->normal);
+    if (!out->position || !out->normal) {
         sb_samples_free(out);
         return -1;
     }
-    for (size_t i = 0; i < all->count; ++i) ++out->begin[all->sample[i].source + 2];
-    for (size_t s = 2; s <= source_count; ++s) out->begin[s] += out->begin[s - 1];
-    for (size_t i = 0; i < all->count; ++i) {
-        size_t at = out->begin[all->sample[i].source + 1]++;
-        out->position[at] = all->sample[i].at;
-        out->normal[at] = all->sample[i].normal;
+    for (size_t s = 0; s < source_count; ++s) {
+        if (shares[s].count == 0) continue;
+        memcpy(out->position + out->begin[s], shares[s].position, shares[s].count * sizeof *out->position);
+        memcpy(out->normal + out->begin[s], shares[s].normal, shares[s].count * sizeof *out->normal);
+        release(&shares[s]);
     }
     return 0;
 }
@@ -103,27 +125,25 @@ sb_status sb_sample_surfaces(const sb_sample_settings *settings, const sb_sample
 {
     sb_sampler sampler = {.settings = *settings};
     /* With cells of one spacing, a query searches at most 27 cells, because its radius is smaller than a spacing. */
-    sb_sample_set all = {.cell = settings->spacing, .origin = settings->min};
-    sampler.set = all;
+    const sb_sample_set none = {.cell = settings->spacing, .origin = settings->min};
+    collection all = {.sampler = &sampler, .shares = sb_alloc(count, sizeof *all.shares), .moving = none};
     sb_samples made = {0};
     sb_status status = SB_OK;
+    sampler.set = none;
+    sb_slabs_choose(settings, &sampler.slabs, &sampler.rows);
     sampler.surfaces = sb_alloc(count, sizeof *sampler.surfaces);
-    if (!sampler.surfaces) return sb_fail_memory(error, "the sampling of surfaces");
+    if (!sampler.surfaces || !all.shares) status = sb_fail_memory(error, "the sampling of surfaces");
     for (size_t i = 0; i < count && status == SB_OK; ++i) {
         status = sb_surface_build(sources + i, settings, sampler.surfaces + i, error);
         sampler.surface_count += status == SB_OK;
     }
-    int failed = status == SB_OK && sample_groups(&sampler, &all);
-    if (status == SB_OK && !failed) {
-        clip(settings, &all); /* the set is not searched afterwards */
-        sb_sample_round_edges(&sampler, &all);
-        failed = sb_stop_signal() || sort_out(&all, count, &made);
-    }
-    if (failed) status = sb_fail_memory(error, "boundary particles");
+    if (status == SB_OK && (sample_groups(&sampler, &all) || sb_stop_signal() || join(all.shares, count, &made)))
+        status = sb_fail_memory(error, "boundary particles");
     if (status == SB_OK) *samples = made;
     for (size_t i = 0; i < sampler.surface_count; ++i) sb_surface_free(sampler.surfaces + i);
+    for (size_t i = 0; all.shares && i < count; ++i) release(&all.shares[i]);
     sb_free(sampler.surfaces);
-    sb_sample_set_free(&sampler.set);
-    sb_sample_set_free(&all);
+    sb_free(all.shares);
+    sb_sample_set_free(&all.moving);
     return status;
 }

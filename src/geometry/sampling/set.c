@@ -99,6 +99,19 @@ int sb_sample_set_add(sb_sample_set *set, const sb_sample *sample)
     return 0;
 }
 
+int sb_sample_set_keep(sb_sample_set *set, uint32_t slab)
+{
+    sb_sample_set kept = {.cell = set->cell, .origin = set->origin};
+    for (size_t i = 0; i < set->count; ++i)
+        if (set->sample[i].slab >= slab && sb_sample_set_add(&kept, &set->sample[i]) != 0) {
+            sb_sample_set_free(&kept);
+            return -1;
+        }
+    sb_sample_set_free(set);
+    *set = kept;
+    return 0;
+}
+
 /* Finds the nearest sample of one cell's list if it is nearer than *best2. */
 static void scan_chain(const sb_sample_set *set, uint32_t head, sb_vec3 at, double *best2, size_t *index)
 {

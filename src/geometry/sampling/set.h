@@ -13,6 +13,7 @@ enum { SB_SAMPLE_BLOCK = 64 };
 typedef struct sb_sample {
     sb_vec3 at, normal; /* m; unit, towards the water */
     uint32_t source;
+    uint32_t slab; /* of the sampling that placed it */
 } sb_sample;
 
 /* A set. Zeroed except for cell and origin it is empty. Arrays are owned. */
@@ -30,6 +31,10 @@ typedef struct sb_sample_set {
 } sb_sample_set;
 
 void sb_sample_set_free(sb_sample_set *set);
+
+/* Removes the samples of the slabs before `slab`; the others keep their order. Returns 0, or -1 without memory (the set
+   is then unchanged). */
+int sb_sample_set_keep(sb_sample_set *set, uint32_t slab);
 
 /* Adds a sample. Returns 0, or -1 without memory (the set is then unchanged). */
 int sb_sample_set_add(sb_sample_set *set, const sb_sample *sample);

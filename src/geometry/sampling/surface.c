@@ -150,16 +150,15 @@ static int add_ridges(sb_surface *surface, const sb_mesh_edge *edge, const sb_me
     return 0;
 }
 
-/* Finds planes, parts and creases from the pairs of faces that share an edge. */
+/* Finds planes and creases from the pairs of faces that share an edge. */
 static int join_faces(sb_surface *surface, const sb_mesh_edges *list, const sb_sample_settings *settings)
 {
     const sb_mesh *mesh = sb_surface_mesh(surface);
     const sb_mesh_edge *edges = list->edges;
-    for (uint32_t t = 0; t < mesh->triangle_count; ++t) surface->region[t] = surface->part[t] = t;
+    for (uint32_t t = 0; t < mesh->triangle_count; ++t) surface->region[t] = t;
     for (size_t i = 0, end; i < list->count; i = end) {
         end = sb_mesh_edge_run(list, i);
         const sb_mesh_edge *meeting = edges + (end - i > MEETING_MAX ? i + MEETING_MAX : end);
-        for (size_t k = i + 1; k < end; ++k) unite(surface->part, edges[i].triangle, edges[k].triangle);
         join_planes(surface, edges + i, meeting);
         if (add_ridges(surface, edges + i, meeting)) return -1;
         if (end - i != 2) continue;
@@ -175,10 +174,7 @@ static int join_faces(sb_surface *surface, const sb_mesh_edges *list, const sb_s
         surface->creases[surface->crease_count++] =
             (sb_crease){mesh->vertices[edges[i].low], mesh->vertices[edges[i].high], {first, second}};
     }
-    for (uint32_t t = 0; t < mesh->triangle_count; ++t) {
-        surface->region[t] = find_root(surface->region, t);
-        surface->part[t] = find_root(surface->part, t);
-    }
+    for (uint32_t t = 0; t < mesh->triangle_count; ++t) surface->region[t] = find_root(surface->region, t);
     return 0;
 }
 
@@ -236,7 +232,7 @@ void sb_surface_free(sb_surface *surface)
 {
     sb_free(surface->normal);
     sb_free(surface->region);
-    sb_free(surface->part);
+    sb_free(surface->lattices);
     sb_free(surface->creases);
     sb_free(surface->caps);
     sb_free(surface->ridges);
@@ -281,9 +277,8 @@ sb_status sb_surface_build(const sb_sample_source *source, const sb_sample_setti
     sb_surface made = {.source = source};
     made.normal = sb_alloc_untouched(mesh->triangle_count, sizeof *made.normal);
     made.region = sb_alloc_untouched(mesh->triangle_count, sizeof *made.region);
-    made.part = sb_alloc_untouched(mesh->triangle_count, sizeof *made.part);
     sb_mesh_edges edges = {0};
-    int failed = !made.normal || !made.region || !made.part || sb_mesh_find_edges(mesh, &edges);
+    int failed = !made.normal || !made.region || sb_mesh_find_edges(mesh, &edges);
     if (!failed) {
         measure(&made, settings);
         orient(&made, &edges, settings->spacing);

@@ -1,4 +1,5 @@
-/* Finds and fills voids, points of the boundary surface that are too far from any particle. The boundary surface is
+/* Finds and fills the voids of the current slab, row by row: points of the boundary surface that are too far from any
+   particle. A point belongs to the slab and the row in which the surface before it lies. The boundary surface is
    bisected repeatedly until each piece is covered, needs no particle, or has room for one at its centre. */
 #include "geometry/sampling/parts.h"
 
@@ -7,7 +8,7 @@
 
 #include <stdlib.h>
 
-enum { DEPTH_MAX = 96, BLOCKS = 256, BLOCK = 64 };
+enum { DEPTH_MAX = 96, BLOCKS = 256, WAITING = 16384 };
 /* In spacings: pieces smaller than piece_min are not divided further; pieces larger than piece_max are divided among
    threads. */
 static const double piece_min = 0.003, piece_max = 12;
@@ -82,6 +83,28 @@ static void halve(const sb_sampler *sampler, const piece *p, piece half[2])
     half[1].corner[longest] = middle;
 }
 
+/* Whether a point of a surface belongs to the current row. */
+static bool owns(const sb_sampler *sampler, sb_vec3 at)
+{
+    return sb_slab_owns(sampler, at) && sb_slab_of(&sampler->rows, at) == sampler->row;
+}
+
+/* Whether a part of a piece lies in the current row. */
+static bool meets(const sb_sampler *sampler, const piece *p)
+{
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    uint32_t first = UINT32_MAX, last = 0;
+    for (int i = 0; i < p->corners; ++i) {
+        const double at = sb_sample_along(p->corner[i].at, sampler->slabs.axis);
+        const uint32_t row = sb_slab_of(&sampler->rows, p->corner[i].at);
+        low = fmin(low, at);
+        high = fmax(high, at);
+        first = row < first ? row : first;
+        last = row > last ? row : last;
+    }
+    return sb_slab_meets(sampler, low, high, 0) && first <= sampler->row && last >= sampler->row;
+}
+
 /* Whether the ball around one particle contains all corners. It is convex, so it then contains the flat piece
    between them. A curved piece projects from that by at most its sagitta, which is subtracted. */
 static bool in_ball(const sb_sampler *sampler, const piece *p, corner center, sb_vec3 particle, double cover)
@@ -110,18 +133,19 @@ static bool examine_far(const sb_sampler *sampler, const piece *p, corner c, dou
     /* In a thin part the boundary surface lies elsewhere, and is no larger than the surface over it. */
     double distance = sb_sample_set_nearest(&sampler->set, at, cover, NULL);
     if (distance + radius <= cover) return false;
-    if (distance < SB_SAMPLE_FILL * spacing) return radius > piece_min * spacing;
+    if (distance < SB_SAMPLE_FILL * spacing || !owns(sampler, c.at)) return radius > piece_min * spacing;
     if (sb_grow((void **)&list->hole, &list->capacity, list->count + 1, sizeof *list->hole))
         list->failed = 1;
     else
-        list->hole[list->count++] =
-            (hole){.piece = *p, .sample = {at, sb_scale(c.inward, -1), p->surface}, .distance = distance};
+        list->hole[list->count++] = (hole){
+            .piece = *p, .sample = {at, sb_scale(c.inward, -1), p->surface, sampler->slab}, .distance = distance};
     return false;
 }
 
 /* Examines one piece. Returns true if it must be bisected. */
 static bool examine(const sb_sampler *sampler, const piece *p, hole_list *list)
 {
+    if (!meets(sampler, p)) return false;
     double spacing = sampler->settings.spacing, cover = SB_SAMPLE_COVER * spacing;
     corner c = center_of(p);
     sb_vec3 at = on_boundary(sampler, c);
@@ -219,7 +243,7 @@ static bool piece_solid(const sb_surface *surface, size_t i, piece *p)
 /* Pieces that are to be searched in parallel. */
 typedef struct work {
     size_t count;
-    piece *piece; /* BLOCKS * BLOCK */
+    piece *piece; /* WAITING */
     hole_list found[BLOCKS];
     hole_list *all;
 } work;
@@ -238,7 +262,7 @@ static int work_flush(const sb_sampler *sampler, work *w)
 #pragma omp parallel for schedule(dynamic, 1)
     for (size_t b = 0; b < BLOCKS; ++b) {
         w->found[b].count = 0;
-        for (size_t i = b * BLOCK; i < (b + 1) * BLOCK && i < w->count; ++i)
+        for (size_t i = b * w->count / BLOCKS; i < (b + 1) * w->count / BLOCKS; ++i)
             search(sampler, w->piece + i, w->found + b);
     }
     w->count = 0;
@@ -250,7 +274,7 @@ static int work_flush(const sb_sampler *sampler, work *w)
 static int work_push(const sb_sampler *sampler, work *w, const piece *p)
 {
     w->piece[w->count++] = *p;
-    return w->count == (size_t)BLOCKS * BLOCK ? work_flush(sampler, w) : 0;
+    return w->count == WAITING ? work_flush(sampler, w) : 0;
 }
 
 static double size_of(const piece *p)
@@ -269,6 +293,7 @@ static int work_cut(const sb_sampler *sampler, work *w, const piece *whole)
     while (count > 0) {
         if (sb_stop_signal()) return -1;
         piece p = stack[--count];
+        if (!meets(sampler, &p)) continue;
         double size = size_of(&p);
         if (size <= piece_max * sampler->settings.spacing || count == DEPTH_MAX) {
             if (work_push(sampler, w, &p)) return -1;
@@ -290,7 +315,7 @@ static int search_surface(const sb_sampler *sampler, uint32_t surface, work *w)
     for (size_t i = 0; i < count; ++i) {
         piece p = {.surface = surface};
         bool some = flat_scene ? piece_flat(on, i, &p) : piece_solid(on, i, &p);
-        if (some && work_cut(sampler, w, &p)) return -1;
+        if (some && meets(sampler, &p) && work_cut(sampler, w, &p)) return -1;
     }
     return 0;
 }
@@ -315,16 +340,12 @@ static int fill(sb_sampler *sampler, hole_list *all)
     return 0;
 }
 
-int sb_sample_voids(sb_sampler *sampler)
+/* Fills the voids of the current row. */
+static int fill_row(sb_sampler *sampler, work *w)
 {
     hole_list last = {0}, all = {0};
-    work *w = sb_alloc(1, sizeof *w);
-    int failed = !w;
-    if (!failed) {
-        w->all = &all;
-        w->piece = sb_alloc_untouched((size_t)BLOCKS * BLOCK, sizeof *w->piece);
-        failed = !w->piece;
-    }
+    int failed = 0;
+    w->all = &all;
     for (uint32_t i = sampler->first; i < sampler->last && !failed; ++i)
         if (sb_sampler_takes(sampler, i)) failed = search_surface(sampler, i, w);
     failed = failed || work_flush(sampler, w) || fill(sampler, &all);
@@ -337,10 +358,20 @@ int sb_sample_voids(sb_sampler *sampler)
         for (size_t i = 0; i < last.count && !failed; ++i) failed = work_push(sampler, w, &last.hole[i].piece);
         failed = failed || work_flush(sampler, w) || fill(sampler, &all);
     }
-    for (int b = 0; w && b < BLOCKS; ++b) sb_free(w->found[b].hole);
-    if (w) sb_free(w->piece);
-    sb_free(w);
     sb_free(all.hole);
     sb_free(last.hole);
+    return failed;
+}
+
+int sb_sample_voids(sb_sampler *sampler)
+{
+    work *w = sb_alloc(1, sizeof *w);
+    if (!w) return -1;
+    w->piece = sb_alloc_untouched(WAITING, sizeof *w->piece);
+    int failed = !w->piece;
+    for (sampler->row = 0; sampler->row < sampler->rows.count && !failed; ++sampler->row) failed = fill_row(sampler, w);
+    for (int b = 0; b < BLOCKS; ++b) sb_free(w->found[b].hole);
+    sb_free(w->piece);
+    sb_free(w);
     return failed;
 }

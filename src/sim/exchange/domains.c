@@ -102,6 +102,27 @@ static double sum_and_largest(const sb_sim *sim, sb_exact *values, size_t count,
     return sb_ranks_sum_and_largest(sim->ranks, values, count, value);
 }
 
+static void sum_begin(const sb_sim *sim, const sb_exact *values, size_t count, double value)
+{
+    sb_domains_land(sim);
+    sb_ranks_sum_begin(sim->ranks, &sim->domains->sums, values, count, value);
+}
+
+static double sum_end(const sb_sim *sim, sb_exact *values)
+{
+    return sb_ranks_sum_end(sim->ranks, &sim->domains->sums, values);
+}
+
+static bool sum_under_way(const sb_sim *sim)
+{
+    return sim->domains->sums.under_way;
+}
+
+static bool sum_arrived(const sb_sim *sim)
+{
+    return sb_ranks_sum_arrived(sim->ranks, &sim->domains->sums);
+}
+
 static void sum_counts(const sb_sim *sim, uint64_t *values, size_t count)
 {
     sb_domains_land(sim);
@@ -136,6 +157,10 @@ const sb_exchange sb_exchange_domains = {
     .land = sb_domains_land,
     .sum = sum,
     .sum_and_largest = sum_and_largest,
+    .sum_begin = sum_begin,
+    .sum_end = sum_end,
+    .sum_under_way = sum_under_way,
+    .sum_arrived = sum_arrived,
     .count = sum_counts,
     .largest = largest,
     .agree = sb_domains_agree,

@@ -39,6 +39,7 @@ typedef struct sb_domains {
     sb_halo_plan plan;
     bool under_way; /* a refresh: that of `flight` */
     sb_halo flight;
+    sb_flying_sums sums;
 
     /* buffers */
     uint64_t *row;             /* ranks + 1: numbers for the others */

@@ -38,6 +38,12 @@ typedef struct sb_exchange {
     void (*sum)(const sb_sim *sim, sb_exact *values, size_t count);
     /* Adds up at most SB_SUMS_MAX sums, and returns the largest value. */
     double (*sum_and_largest)(const sb_sim *sim, sb_exact *values, size_t count, double value);
+    /* The same in two parts. In between, no other function here but the next two may be called. NULL, as these: sums
+       are there at once. */
+    void (*sum_begin)(const sb_sim *sim, const sb_exact *values, size_t count, double value);
+    double (*sum_end)(const sb_sim *sim, sb_exact *values);
+    bool (*sum_under_way)(const sb_sim *sim);
+    bool (*sum_arrived)(const sb_sim *sim); /* moves them on; whether the end will not wait */
     void (*count)(const sb_sim *sim, uint64_t *values, size_t count);
     /* The largest value of all domains; none is NaN. */
     double (*largest)(const sb_sim *sim, double value);

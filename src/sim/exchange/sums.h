@@ -16,6 +16,10 @@ typedef double sb_group_terms(sb_sim *sim, const sb_group *group, double terms[S
    number. Returns the largest value that `of` returned in any domain, -INFINITY without groups. */
 double sb_sum_groups(sb_sim *sim, size_t count, sb_group_terms *of, double *total);
 
+/* The same in two parts, of several domains: the sums are on their way in between (sb_exchange.sum_begin). */
+void sb_sum_groups_begin(sb_sim *sim, size_t count, sb_group_terms *of);
+double sb_sum_groups_end(sb_sim *sim, size_t count, double *total);
+
 /* Adds `count` sums of one thread to those of all. Called in a parallel region. */
 void sb_sums_merge(sb_exact *total, const sb_exact *own, size_t count);
 

@@ -33,12 +33,13 @@ static polynomial begin(double largest, double smallest)
     return (polynomial){largest, smallest, theta, delta, .rho = delta / theta, .first = true};
 }
 
-/* q += move, move = keep times the last move + step times the scaled residual. */
-static void sweep(sb_sim *sim, polynomial *p)
+/* out = q + move, move = keep times the last move + step times the scaled residual. */
+static void sweep(sb_sim *sim, polynomial *p, float *out)
 {
     const size_t n = sim->state.n;
     const float *restrict residual = sim->work.residual, *restrict diagonal = sim->work.diagonal;
-    float *restrict unknown = sim->work.unknown, *restrict direction = sim->work.direction;
+    const float *unknown = sim->work.unknown;
+    float *restrict direction = sim->work.direction;
     const double next = 1 / (2 * p->theta / p->delta - p->rho);
     const bool first = p->first;
     const float keep = first ? 0 : (float)(next * p->rho);
@@ -52,25 +53,44 @@ static void sweep(sb_sim *sim, polynomial *p)
         q = q > 0 ? q : 0;
         q = diagonal[i] != 0 ? q : old; /* a particle without pressure keeps q = 0 */
         direction[i] = q - old;
-        unknown[i] = q;
+        out[i] = q;
     }
+}
+
+/* Computes the errors. On several domains their sums take time, in which the next sweep begins: *next is
+   the polynomial after it. It is kept or dropped then. */
+static sb_pressure_error judge_and_go_ahead(sb_sim *sim, polynomial *next)
+{
+    sb_pressure_judge_begin(sim);
+    sweep(sim, next, sim->work.unknown_ahead);
+    sb_pressure_ahead(sim);
+    return sb_pressure_judge_end(sim);
 }
 
 static sb_status solve(sb_sim *sim, sb_error *error)
 {
     (void)error;
+    const bool ahead = sim->needs.ahead;
     polynomial p = begin(sb_pressure_spectrum(sim), lower_end(sim));
     double least = (double)INFINITY;
     for (;;) {
+        polynomial next = p;
         sb_pressure_residual(sim);
-        const sb_pressure_error judged = sb_pressure_judge(sim);
-        if (sb_pressure_done(sim, &judged)) return SB_OK;
-        if (judged.residual > GROWN * least) {
+        const sb_pressure_error judged = ahead ? judge_and_go_ahead(sim, &next) : sb_pressure_judge(sim);
+        const bool done = sb_pressure_done(sim, &judged), grown = !done && judged.residual > GROWN * least;
+        if (ahead && (done || grown)) sb_pressure_drop_ahead(sim);
+        if (done) return SB_OK;
+        if (grown) {
             p = begin(WIDER * p.largest, p.smallest);
             least = judged.residual;
         }
         least = judged.residual < least ? judged.residual : least;
-        sweep(sim, &p);
+        if (ahead && !grown) {
+            sb_pressure_keep_ahead(sim);
+            p = next;
+        } else {
+            sweep(sim, &p, sim->work.unknown);
+        }
     }
 }
 
@@ -79,5 +99,6 @@ const sb_pressure_solver sb_solver_chebyshev = {
     .summary = "Chebyshev semi-iteration with clamp, Jacobi-scaled",
     .reference = "Golub and Varga 1961",
     .needs_direction = true,
+    .goes_ahead = true,
     .solve = solve,
 };

@@ -45,6 +45,35 @@ void sb_pressure_product(sb_sim *sim, float *out)
     sb_pressure_diverge(sim, out);
 }
 
+static void swap_acceleration(sb_sim *sim)
+{
+    sb_f4 *const other = sim->work.acceleration_ahead;
+    sim->work.acceleration_ahead = sim->work.acceleration;
+    sim->work.acceleration = other;
+}
+
+void sb_pressure_ahead(sb_sim *sim)
+{
+    load_owned(sim, sim->work.unknown_ahead);
+    swap_acceleration(sim);
+    sim->work.groups_ahead = 0;
+    if (sim->exchange->sum_under_way(sim)) sim->passes->accelerate(sim);
+}
+
+void sb_pressure_keep_ahead(sb_sim *sim)
+{
+    float *const other = sim->work.unknown;
+    sim->work.unknown = sim->work.unknown_ahead;
+    sim->work.unknown_ahead = other;
+}
+
+void sb_pressure_drop_ahead(sb_sim *sim)
+{
+    load_owned(sim, sim->work.unknown);
+    swap_acceleration(sim);
+    sim->work.groups_ahead = 0;
+}
+
 void sb_pressure_residual(sb_sim *sim)
 {
     const size_t n = sim->state.n;

@@ -149,11 +149,10 @@ static double judge_group(sb_sim *sim, const sb_group *group, double terms[SB_SU
     return (double)fmaxf(fmaxf(worst[0], worst[1]), fmaxf(worst[2], worst[3]));
 }
 
-sb_pressure_error sb_pressure_judge(sb_sim *sim)
+/* sum: excess, residual. worst: the largest excess. */
+static sb_pressure_error judge(sb_sim *sim, const double sum[2], double worst)
 {
     const double rest = (double)sim->constant.rest_density, all = (double)sim->work.everywhere * rest;
-    double sum[2]; /* excess, residual */
-    const double worst = sb_sum_groups(sim, 2, judge_group, sum);
     sb_pressure_error error = {
         .mean = all > 0 ? sum[0] / all : 0,
         .residual = all > 0 ? sum[1] / all : 0,
@@ -164,6 +163,25 @@ sb_pressure_error sb_pressure_judge(sb_sim *sim)
     sim->report.error_residual = error.residual;
     sim->report.error_max = error.max;
     return error;
+}
+
+sb_pressure_error sb_pressure_judge(sb_sim *sim)
+{
+    double sum[2];
+    const double worst = sb_sum_groups(sim, 2, judge_group, sum);
+    return judge(sim, sum, worst);
+}
+
+void sb_pressure_judge_begin(sb_sim *sim)
+{
+    sb_sum_groups_begin(sim, 2, judge_group);
+}
+
+sb_pressure_error sb_pressure_judge_end(sb_sim *sim)
+{
+    double sum[2];
+    const double worst = sb_sum_groups_end(sim, 2, sum);
+    return judge(sim, sum, worst);
 }
 
 /* A solve ends when the residual is below the tolerance and, unless it is below FINE tolerances, has fallen to SHARE of

@@ -21,6 +21,7 @@ typedef struct sb_pressure_error {
 typedef struct sb_pressure_solver {
     const char *name, *summary, *reference;
     bool needs_direction, needs_product;              /* fields needed in addition to residual */
+    bool goes_ahead;                                  /* on several ranks: sb_pressure_ahead */
     sb_status (*solve)(sb_sim *sim, sb_error *error); /* NULL: steps have no solve */
 } sb_pressure_solver;
 
@@ -50,6 +51,18 @@ void sb_pressure_residual(sb_sim *sim);
 
 /* Computes the errors of the residual field, and adds one iteration to the report. */
 sb_pressure_error sb_pressure_judge(sb_sim *sim);
+/* The same in two parts, of several domains: the errors' sums are on their way in between. */
+void sb_pressure_judge_begin(sb_sim *sim);
+sb_pressure_error sb_pressure_judge_end(sb_sim *sim);
+
+/* In between: begins the first pass of the next product, of work.unknown_ahead, over groups that read no ghosts, until
+   the sums have come. Then one of the others is called: `keep` makes the unknown ahead the unknown, and
+   sb_pressure_residual goes on with the pass; `drop` forgets it. Until then the unknown and its acceleration are as
+   they were. */
+void sb_pressure_ahead(sb_sim *sim);
+void sb_pressure_keep_ahead(sb_sim *sim);
+void sb_pressure_drop_ahead(sb_sim *sim);
+
 /* Whether the error meets the tolerance. */
 bool sb_pressure_met(const sb_sim *sim, const sb_pressure_error *error);
 /* Whether the tolerance is met or max_iterations have been done; sets the report's `capped` in the second case. */

@@ -44,6 +44,8 @@ const sb_work_view sb_work_views[] = {
     {WORK(direction), FROM(PRESSURE, PRESSURE), .unit = "Pa m^6/kg^2", .needed = SB_NEEDS(direction)},
     {WORK(product), FROM(PRESSURE, PRESSURE), .unit = "kg/m^3", .needed = SB_NEEDS(product)},
     {WORK(acceleration), FROM(PRESSURE, ACCELERATE), .unit = "m/s^2", .ghosts = true, .needed = SB_ALWAYS},
+    {WORK(unknown_ahead), FROM(PRESSURE, AFTER), .unit = "Pa m^6/kg^2", .needed = SB_NEEDS(ahead)},
+    {WORK(acceleration_ahead), FROM(PRESSURE, ACCELERATE), .unit = "m/s^2", .ghosts = true, .needed = SB_NEEDS(ahead)},
     {WORK(end_velocity), FROM(ACCELERATE, MOVE), .unit = "m/s", .ghosts = true, .replaces = "acceleration",
      .needed = SB_ALWAYS},
     {WORK(surface), FROM(FOAM, FOAM), .unit = "1", .ghosts = true, .needed = SB_NEEDS(foam)},

@@ -96,6 +96,10 @@ typedef struct sb_work {
     float *direction;    /* search direction of the solver; NULL: it needs none */
     float *product;      /* A times the argument; NULL: not needed */
     sb_f4 *acceleration; /* m/s^2, by the pressure argument; last lane 0 */
+    /* The same of the sweep that comes next, if the stopping test lets it; NULL: it is not begun before. */
+    float *unknown_ahead;
+    sb_f4 *acceleration_ahead;
+    size_t groups_ahead; /* inner groups whose accelerations ahead are there */
     sb_f4 *end_velocity; /* m/s, at t + dt; last lane: pressure in Pa */
     sb_f4 *surface;      /* unit normal out of the water, and the length of which it is a fraction (sim/foam/foam.h) */
     uint32_t *emission;  /* particles of foam to be emitted: their expected number, then their first index */
