@@ -87,9 +87,9 @@ static const sb_key keys[] = {
      .applies = REGULAR, .only = "regular waves", .fallback = "auto",
      .doc = "Theory of regular waves; `auto`: `second-order` where H L^2/d^3 < 26.3, otherwise `cnoidal`."},
     {.name = "theory", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_given_sea, theory), .words = solitary_names,
-     .applies = SOLITARY, .only = "a solitary wave", .fallback = "third-order",
-     .doc = "Theory of a solitary wave: `third-order` and `boussinesq` as in water.wave, or `exact`, the wave of the full "
-            "equations, computed for H/h from 0.001 to 0.7."},
+     .applies = SOLITARY, .only = "a solitary wave", .fallback = "exact",
+     .doc = "Theory of a solitary wave: `exact`, the wave of the full equations, computed for H/h from 0.001 to 0.7, or "
+            "`third-order` and `boussinesq` as in water.wave."},
     {.name = "direction", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_given_sea, direction), .unit = "deg", .min = -360,
      .max = 360, .applies = SOLITARY | REGULAR, .only = "a solitary or regular wave", .fallback = "0",
      .doc = "Direction of travel, from +x towards +y; 0 or 180 in 2D."},
@@ -154,7 +154,8 @@ static sb_status check_exact(sb_reader *reader, const sb_yaml *map, const sb_giv
     const double lowest = SB_SOLITARY_EXACT_LOWEST * given->depth, highest = SB_SOLITARY_EXACT_HIGHEST * given->depth;
     if (given->height >= lowest && given->height <= highest) return SB_OK;
     return sb_reader_fail(reader, map, "height",
-                          "%g m in a depth of %g m has no wave of `theory: exact`, expected metres from %g to %g",
+                          "%g m in a depth of %g m has no wave of `theory: exact`, expected metres from %g to %g, or "
+                          "`theory: third-order`",
                           given->height, given->depth, lowest, highest);
 }
 

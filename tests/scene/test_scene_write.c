@@ -275,6 +275,7 @@ static void test_given_water(void **state)
                     NULL, 0, &scene);
     assert_near(scene.given.level, 0.5, 0);
     assert_true(scene.given.origin[0] == 2 && scene.given.origin[1] == 0 && scene.given.ramp == 0);
+    assert_int_equal(scene.given.theory, SB_GIVEN_EXACT);
     sb_scene_free(&scene);
     remove(file);
 }

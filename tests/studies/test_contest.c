@@ -179,6 +179,32 @@ static void test_part_of_runs_can_be_selected(void **state)
     assert_int_equal(entries[4], 0);
 }
 
+/* By a part of their names choices are selected in any form, beside `default` and the reference. */
+static void test_choices_can_be_selected(void **state)
+{
+    (void)state;
+    const sb_store store = {.assets = SB_SOURCE_DIR "/assets/validation"};
+    const sb_subject *plant = sb_subjects;
+    while (strcmp(plant->name, "plant") != 0) plant++;
+    const sb_contest_selection nested = {.quick = true, .seeds = 1, .choice = "sea nested"};
+    const sb_contest_selection none = {.quick = true, .seeds = 1, .choice = "sea nestled"};
+    sb_contest c;
+    sb_error error = {0};
+    if (sb_contest_begin(&c, plant, &store, &nested, &error) != SB_OK) fail_msg("%s", error.text);
+    assert_int_equal(c.entry_count, 5); /* with the reference, and one that the quick form omits */
+    assert_null(c.entries[0].choice);
+    assert_string_equal(c.entries[1].choice->name, "default");
+    for (size_t i = 2; i < c.entry_count; i++) assert_non_null(strstr(c.entries[i].choice->name, "sea nested"));
+    sb_contest_free(&c);
+    if (sb_contest_begin(&c, plant, &store, &none, &error) != SB_OK) fail_msg("%s", error.text);
+    assert_int_equal(c.trial_count, 0);
+    sb_contest_free(&c);
+    /* Choices of the plant are none of another scene. */
+    if (sb_contest_begin(&c, sb_subjects, &store, &nested, &error) != SB_OK) fail_msg("%s", error.text);
+    assert_int_equal(c.trial_count, 0);
+    sb_contest_free(&c);
+}
+
 /* Marks a trial as finished with this run time and first error, in the unit of the figure. */
 static void mark_done(sb_contest *c, const sb_entry *e, size_t seed, double seconds, double error)
 {
@@ -268,6 +294,7 @@ int main(void)
         cmocka_unit_test(test_wcsph_is_the_preset_wen),
         cmocka_unit_test(test_rows_of_one_subject_have_its_scene),
         cmocka_unit_test(test_part_of_runs_can_be_selected),
+        cmocka_unit_test(test_choices_can_be_selected),
         cmocka_unit_test(test_means_over_seeds_and_front),
         cmocka_unit_test(test_reference_is_mean_of_its_seeds),
         cmocka_unit_test(test_subjects_have_spacings_and_errors),

@@ -46,11 +46,8 @@ static int create_side(const sb_sim *sim, int side, sb_strip_side *s)
     s->still_rows = sb_alloc(s->columns, sizeof *s->still_rows);
     s->owed = sb_alloc(s->columns * s->rows, sizeof *s->owed);
     s->correction = sb_alloc(s->columns * s->rows, sizeof *s->correction);
-    s->content = sb_alloc(s->columns, sizeof *s->content);
     s->left = sb_alloc(s->columns * s->rows, sizeof *s->left);
-    if (!s->station || !s->sums || !s->row_count || !s->still_rows || !s->owed || !s->correction || !s->left ||
-        !s->content)
-        return -1;
+    if (!s->station || !s->sums || !s->row_count || !s->still_rows || !s->owed || !s->correction || !s->left) return -1;
     for (size_t k = 0; k < s->columns * s->rows; k++) s->correction[k] = NAN;
     count_rows(sim, s);
     return 0;
@@ -84,7 +81,6 @@ void sb_strip_destroy(sb_sim *sim)
         sb_free(s->owed);
         sb_free(s->correction);
         sb_free(s->left);
-        sb_free(s->content);
     }
     sb_sea_destroy(sim->strip->sea);
     sb_free(sim->strip->held);

@@ -1,6 +1,8 @@
 /* What crosses the outer edge of a strip. Each column of the edge has rows of particles; a row counts the water that
-   has come in through it, in particles, less the particles that have come in, or plus those that have left. It lets one
-   in when half a particle is owed: water that turns round brings back a particle where one has left. */
+   has come in through it until now, in particles, less the particles that have come in, or plus those that have left.
+   It lets one in when half a particle is owed, at the place to which its water has come: water that turns round brings
+   back a particle where one has left. The volume that comes in is that of the given velocity, and nothing else: the
+   strip's content is not controlled (docs/decisions/0084). */
 #include "base/memory.h"
 #include "sim/exchange/domains.h"
 #include "sim/sea/strip.h"
@@ -18,9 +20,6 @@ static const double STRETCHED = 1.6;
 static const double NEAR = 0.7, FAR = 1.2;
 /* Layers at rest below which a column may fall dry. */
 static const int STILL_DEEP = 4;
-
-/* Gain and largest part of the correction by which the strip's content follows its volume, as a part of the inflow. */
-static const double CONTENT_GAIN = 2, CONTENT_MOST = 0.5;
 
 static double particle_volume(const sb_sim *sim)
 {
@@ -112,35 +111,6 @@ static sb_status let_in(sb_sim *sim, const entry *e, sb_error *error)
     state->crossing.momentum =
         sb_madd(state->crossing.momentum, mass, sb_vec((double)has[0], (double)has[1], (double)has[2]));
     return SB_OK;
-}
-
-/* Particles that the strip holds per column at rest of the given surface. */
-static double wanted_content(const sb_sim *sim, const sb_strip_side *s, double along)
-{
-    enum { SAMPLES = 4 };
-    const double width = sim->constant.dimension == 2 ? 1 : sim->model->sea[s->side].pitch;
-    double volume = 0;
-    for (int k = 0; k < SAMPLES; k++) {
-        sb_given given;
-        const double inwards = (k + 0.5) / SAMPLES * s->strip;
-        sb_strip_given(sim, s, sim->state.time, inwards, along, sim->scene->sea.level, &given);
-        volume += fmax(given.surface - given.bed, 0) * s->strip / SAMPLES * width;
-    }
-    return volume / particle_volume(sim);
-}
-
-static void count_content(sb_sim *sim, sb_strip_side *s)
-{
-    const size_t n = sim->state.n;
-    memset(s->content, 0, s->columns * sizeof *s->content);
-#pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < n; i++) {
-        const sb_record at = sim->state.position[i];
-        const int64_t inwards = sb_strip_inwards(s, at);
-        if (inwards < 0 || inwards >= s->width) continue;
-        __atomic_fetch_add(&s->content[sb_strip_column(sim, s, sb_strip_along(sim, s, at))], 1, __ATOMIC_RELAXED);
-    }
-    sim->exchange->count(sim, s->content, s->columns);
 }
 
 /* Particles of the strip, and those that have come in in this step: whose order has no meaning. */
@@ -240,42 +210,67 @@ static sb_status check_depth(const sb_sim *sim, const sb_strip_side *s, size_t c
         sim->state.time, sb_side_names[s->side], point.surface, at.x, at.y, bed);
 }
 
-/* Advances the rows of a column by a step and lets particles in. */
+/* A column in one step: its rows, and the sides of the water of a particle in them. */
+typedef struct column_now {
+    sb_strip_side *s;
+    size_t index;
+    double along, bed; /* m */
+    double tall;       /* m, height of a row */
+    double length;     /* m, a particle's share of a row */
+    sb_vec3 spacing;   /* m, the same along each axis */
+} column_now;
+
+/* Lets a particle into a row if it owes half of one, and if there is room. */
+static sb_status fill_row(sb_sim *sim, const column_now *c, edge *near, int row, sb_error *error)
+{
+    double *owed = &c->s->owed[c->index * c->s->rows + (size_t)row];
+    const double z = c->bed + (row + 0.5) * c->tall, sign = c->s->side % 2 ? -1 : 1;
+    sb_given given;
+    sb_strip_given(sim, c->s, sim->state.time, 0, c->along, z, &given);
+    const double u = sign * given.velocity[c->s->axis];
+    if (!(u > 0) || *owed < 0) return SB_OK;
+    const double inwards = fmin(fmax(*owed - 0.5, 0) * c->length, u * sim->state.time_step);
+    entry e = {sb_model_sea_place(sim->model, c->s->side, inwards, c->along), &given,
+               correction_of(c->s, c->index, (size_t)row)};
+    e.at.z = z;
+    if (gap_at(near, e.at, c->spacing) < (*owed < 0.5 ? FAR : NEAR)) return SB_OK;
+    *owed -= 1;
+    if (add_to_edge(near, e.at) != 0) return sb_fail_memory(error, "particles at a side");
+    return let_in(sim, &e, error);
+}
+
+/* The water that comes in through a row in this step, in particles: with the velocity with which the strip moves. */
+static double comes_in(const sb_sim *sim, const column_now *c, int row)
+{
+    const double dt = sim->state.time_step;
+    sb_given given;
+    sb_strip_given(sim, c->s, sim->state.time + 0.5 * dt, 0, c->along, c->bed + (row + 0.5) * c->tall, &given);
+    return (c->s->side % 2 ? -1 : 1) * given.velocity[c->s->axis] * dt / c->length;
+}
+
+/* Lets particles into a column, and advances its rows by a step. */
 static sb_status advance_column(sb_sim *sim, sb_strip_side *s, edge *near, size_t column, sb_error *error)
 {
     const double pitch = sim->model->sea[s->side].pitch, along = ((double)column + 0.5) * pitch;
-    const double dt = sim->state.time_step, t = sim->state.time, sign = s->side % 2 ? -1 : 1;
     const double width = sim->constant.dimension == 2 ? 1 : pitch;
     sb_given given;
-    const sb_status deep = check_depth(sim, s, column, error);
-    if (deep != SB_OK) return deep;
-    sb_strip_given(sim, s, t, 0, along, sim->scene->sea.level, &given);
-    const double depth = given.surface - given.bed, bed = given.bed;
+    sb_status status = check_depth(sim, s, column, error);
+    if (status != SB_OK) return status;
+    sb_strip_given(sim, s, sim->state.time, 0, along, sim->scene->sea.level, &given);
+    const double depth = given.surface - given.bed;
     set_rows(sim, s, column, depth);
     const int rows = s->row_count[column];
     if (rows == 0) return SB_OK;
-    const double per_metre = depth / rows * width / particle_volume(sim); /* particles per metre of a row */
-    const double wanted = wanted_content(sim, s, along), lacks = wanted - (double)s->content[column];
-    const double more = wanted > 1 ? fmin(fmax(CONTENT_GAIN * lacks / wanted, -CONTENT_MOST), CONTENT_MOST) : 0;
-    const sb_vec3 spacing =
-        s->axis == 0 ? sb_vec(1 / per_metre, pitch, depth / rows) : sb_vec(pitch, 1 / per_metre, depth / rows);
-    for (int row = 0; row < rows; row++) {
+    column_now c = {.s = s, .index = column, .along = along, .bed = given.bed, .tall = depth / rows};
+    c.length = particle_volume(sim) / (c.tall * width);
+    c.spacing = s->axis == 0 ? sb_vec(c.length, pitch, c.tall) : sb_vec(pitch, c.length, c.tall);
+    for (int row = 0; row < rows && status == SB_OK; row++) {
         double *owed = &s->owed[column * s->rows + (size_t)row];
-        const double z = bed + (row + 0.5) * depth / rows;
-        sb_strip_given(sim, s, t, 0, along, z, &given);
-        const double u = sign * given.velocity[s->axis];
-        *owed += u * dt * per_metre * (u > 0 ? 1 + more : 1) + (double)s->left[column * s->rows + (size_t)row];
-        if (!(u > 0) || *owed < 0) continue;
-        entry e = {.given = &given, .correction = correction_of(s, column, (size_t)row)};
-        e.at = sb_model_sea_place(sim->model, s->side, fmin(fmax(*owed - 0.5, 0) / per_metre, u * dt), along);
-        e.at.z = z;
-        if (gap_at(near, e.at, spacing) < (*owed < 0.5 ? FAR : NEAR)) continue;
-        *owed -= 1;
-        if (add_to_edge(near, e.at) != 0) return sb_fail_memory(error, "particles at a side");
-        const sb_status status = let_in(sim, &e, error);
-        if (status != SB_OK) return status;
+        *owed += (double)s->left[column * s->rows + (size_t)row];
+        status = fill_row(sim, &c, near, row, error);
+        *owed += comes_in(sim, &c, row);
     }
-    return SB_OK;
+    return status;
 }
 
 sb_status sb_stage_inflow(sb_sim *sim, sb_error *error)
@@ -287,7 +282,6 @@ sb_status sb_stage_inflow(sb_sim *sim, sb_error *error)
     for (size_t k = 0; k < sim->strip->count && status == SB_OK; k++) {
         sb_strip_side *s = &sim->strip->side[k];
         count_leaving(sim, s);
-        count_content(sim, s);
         edge near = {0};
         if (find_edge(sim, s, &near) != 0) status = sb_fail_memory(error, "particles at a side");
         for (size_t column = 0; column < s->columns && status == SB_OK; column++)

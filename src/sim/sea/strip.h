@@ -39,7 +39,6 @@ typedef struct sb_strip_side {
     int *still_rows;                    /* the same at rest */
     double *owed;      /* state: columns * rows, water that has come in, in particles, less particles that have */
     float *correction; /* state: columns * rows at rest, density correction; NAN: not known */
-    uint64_t *content; /* columns, particles in the strip in this step */
     uint64_t *left;    /* columns * rows, particles that left in this step */
 } sb_strip_side;
 

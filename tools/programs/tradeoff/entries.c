@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Reads the scene's numerics with the preset `default`, of which a choice changes one by a factor. */
 static sb_status read_defaults(const sb_subject *subject, const sb_store *store, sb_numerics *defaults, sb_error *error)
@@ -68,13 +69,21 @@ static bool is_selected(const sb_contest_selection *selection, const double *spa
     return !selection->spacings || i < (size_t)selection->spacings;
 }
 
+/* Whether a choice is selected for a subject: by its name, or by the form. */
+static bool is_chosen(const sb_contest_selection *selection, const sb_choice *choice, const sb_subject *subject)
+{
+    if ((choice->slow && !subject->slow) || !sb_choice_is_for(choice, subject->name)) return false;
+    if (selection->choice) return choice == sb_choices || strstr(choice->name, selection->choice);
+    return choice->quick || !(selection->quick || selection->few);
+}
+
 sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_store *store,
                            const sb_contest_selection *selection, sb_error *error)
 {
     const double *spacings = selection->quick ? subject->quick : subject->full;
     const double reference = selection->quick ? subject->quick_reference : subject->full_reference;
     const size_t most = sb_choice_count() * SB_SUBJECT_SPACINGS + 1;
-    bool any = false;
+    bool any = false, others = !selection->choice;
     sb_numerics defaults;
     *c = (sb_contest){.subject = subject};
     while (subject->errors[c->error_count].name) c->error_count++;
@@ -89,12 +98,13 @@ sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_st
         return sb_fail_memory(error, "runs");
     }
     for (size_t i = 0; spacings[i] > 0; i++) any |= is_selected(selection, spacings, i);
+    for (const sb_choice *choice = sb_choices + 1; choice->name; choice++)
+        others |= is_chosen(selection, choice, subject);
+    if (!others) return SB_OK;
     if (reference > 0 && any) add(c, NULL, reference, selection, &defaults);
     for (size_t i = 0; spacings[i] > 0; i++)
         for (const sb_choice *choice = sb_choices; choice->name && is_selected(selection, spacings, i); choice++)
-            if ((choice->quick || !(selection->quick || selection->few)) && (!choice->slow || subject->slow) &&
-                sb_choice_is_for(choice, subject->name))
-                add(c, choice, spacings[i], selection, &defaults);
+            if (is_chosen(selection, choice, subject)) add(c, choice, spacings[i], selection, &defaults);
     return SB_OK;
 }
 

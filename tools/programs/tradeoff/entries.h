@@ -33,16 +33,17 @@ typedef struct sb_contest {
 
 /* Which runs of a subject are selected. */
 typedef struct sb_contest_selection {
-    bool quick;     /* the cheap form: few choices at coarse spacings */
-    bool few;       /* those choices at the full form's spacings */
-    int seeds;      /* start seeds of every run */
-    int references; /* seeds of the reference, at most 2; 0: as many as of other runs */
-    int spacings;   /* only so many coarsest ones; 0: all */
-    double spacing; /* only this one, m; 0: all */
+    bool quick;         /* the cheap form: few choices at coarse spacings */
+    bool few;           /* those choices at the full form's spacings */
+    int seeds;          /* start seeds of every run */
+    int references;     /* seeds of the reference, at most 2; 0: as many as of other runs */
+    int spacings;       /* only so many coarsest ones; 0: all */
+    double spacing;     /* only this one, m; 0: all */
+    const char *choice; /* only choices whose names contain it, and `default`; NULL: all */
 } sb_contest_selection;
 
 /* Prepares the selected runs, the reference first; runs nothing. If the subject does not have the selected spacing,
-   there are no runs. SB_BAD_INPUT: the scene cannot be read. */
+   or no other choice than `default` is selected, there are no runs. SB_BAD_INPUT: the scene cannot be read. */
 sb_status sb_contest_begin(sb_contest *contest, const sb_subject *subject, const sb_store *store,
                            const sb_contest_selection *selection, sb_error *error);
 /* Computes times (processor times with cpu), errors and front from the trials that were read. */

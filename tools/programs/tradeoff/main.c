@@ -19,6 +19,7 @@ static const char help[] =
     "  --few            fewer choices at the spacings of the full form\n"
     "  --spacings N     only the N coarsest spacings of each scene\n"
     "  --spacing R      only this spacing, in m, and its reference\n"
+    "  --choice TEXT    only `default` and the choices whose names contain TEXT, in any form\n"
     "  --list           lists scenes and choices\n"
     "  --seeds N        start seeds of every run (3; quick: 1)\n"
     "  --references N   start seeds of the reference run of the plant, 1 or 2 (default: --seeds)\n"
@@ -53,6 +54,7 @@ static sb_status parse(int count, char **arguments, options *o, sb_error *error)
         {.name = "--few", .flag = &s->few, .repeated = true},
         {.name = "--spacings", .count = &s->spacings, .most = 64, .repeated = true},
         {.name = "--spacing", .number = &s->spacing, .most = 1e6, .repeated = true},
+        {.name = "--choice", .text = &s->choice, .repeated = true},
         {.name = "--report-only", .flag = &o->common.report_only},
         {.name = "--seeds", .count = &s->seeds, .most = SB_ENTRY_SEEDS, .repeated = true},
         {.name = "--references", .count = &s->references, .most = SB_REFERENCE_SEEDS, .repeated = true}};
@@ -85,7 +87,13 @@ static sb_status begin(const options *o, const sb_store *store, sb_contest_repor
         else
             sb_contest_free(c);
     }
-    if (status == SB_OK && report->count == 0)
+    if (status == SB_OK && report->count == 0 && o->selection.choice)
+        status =
+            sb_fail(error, SB_BAD_INPUT,
+                    "--choice %s: no selected scene has such a choice at the selected spacings, expected a part of a "
+                    "name of --list",
+                    o->selection.choice);
+    else if (status == SB_OK && report->count == 0)
         status = sb_fail(error, SB_BAD_INPUT,
                          "--spacing %g: no selected scene has this spacing, expected one of the report's tables (m)",
                          o->selection.spacing);
@@ -103,8 +111,8 @@ static sb_status run(const options *o, sb_contest *contests, int *result, sb_err
         status = sb_runs_make(&store, c->trials, c->trial_count, error);
         if (status == SB_OK) status = sb_contest_judge(c, sb_contest_cpu(&store), error);
     }
-    /* A report of some scenes must not replace that of all. */
-    if (status == SB_OK && !o->common.quick && sb_subjects[report.count].name)
+    /* A report of some scenes or choices must not replace that of all. */
+    if (status == SB_OK && (o->selection.choice || (!o->common.quick && sb_subjects[report.count].name)))
         status = sb_store_report(&store, "some", error);
     *result = store.failed ? SB_FAILED : 0;
     return status == SB_OK ? sb_contest_write(&report, error) : status;
