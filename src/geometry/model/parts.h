@@ -25,10 +25,19 @@ void sb_model_space_free(sb_model_space *space);
    infinite strip, m. */
 double sb_model_strip_width(const sb_model *model);
 
+/* The direction along an axis that a normal is nearest to: twice the axis, 1 more if it is that of growing coordinates.
+ */
+static inline int sb_model_direction_of(sb_vec3 normal)
+{
+    const double size[3] = {fabs(normal.x), fabs(normal.y), fabs(normal.z)};
+    const int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
+    return 2 * axis + (sb_component(normal, axis) > 0);
+}
+
 /* Warns if solids at one periodic side do not continue at the opposite side. */
 sb_status sb_model_check_sides(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
-/* facets.c: the facets of bodies that water can meet, if walls reflect water. The result is the same for any number of
+/* facet*.c: the facets of bodies that water can meet, if walls reflect water. The result is the same for any number of
    threads. */
 sb_status sb_model_facets(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
