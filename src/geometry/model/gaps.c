@@ -167,8 +167,8 @@ static sb_status warn(const search *s, size_t a, size_t b, const pair *p, sb_err
         snprintf(between, sizeof between, "bodies \"%s\" and \"%s\" face each other", bodies[a].name, bodies[b].name);
     return sb_model_warn(
         s->model, error,
-        "%s across a gap of about %.2g m near (%.4g, %.4g, %.4g), and walls resolve gaps of %.3g m (%g "
-        "spacings) or more: %s unreliable; expected a closed or a wider gap, or a resolution of %.2g m "
+        "%s across a gap of about %.2g m near (%.4g, %.4g, %.4g), and walls resolve gaps of %.3g m (%g times "
+        "the spacing) or more: %s unreliable; expected a closed or a wider gap, or a resolution of %.2g m "
         "or less",
         between, p->width, p->place.x, p->place.y, p->place.z, s->limit, s->limit / s->model->spacing,
         a == b ? "the force on it is" : "the forces on both are", p->width * s->model->spacing / s->limit);

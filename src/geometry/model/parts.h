@@ -93,7 +93,9 @@ sb_status sb_model_sea_sides(const sb_scene *scene, const sb_model_space *space,
 /* Adds a warning for each open side at which water stands. */
 sb_status sb_model_warn_open(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
-/* Adds a warning for a body that no water can reach, with the scale that would bring its file into the domain.
+/* Adds one warning for all bodies outside of the domain that no scale of their files would bring into it. */
+sb_status sb_model_warn_elsewhere(const sb_scene *scene, sb_model *model, sb_error *error);
+/* Adds a warning for another body that no water can reach, with the scale that would bring its file into the domain.
    solid: NULL in 2D if the plane y = 0 does not cut the body. */
 sb_status sb_model_warn_place(const sb_scene *scene, const sb_model_body *body, const sb_solid *solid, sb_model *model,
                               sb_error *error);
