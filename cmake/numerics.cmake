@@ -2,8 +2,9 @@
 # compiled. It runs at build time. An unchanged file is not written again.
 cmake_minimum_required(VERSION 3.25)
 set(sources "")
-foreach(folder base/vec.h base/random.h base/multiversion.h physics geometry sea sim measure)
-    if(folder MATCHES "\\.h$")
+foreach(folder base/vec.h base/random.h base/exact.h base/exact.c base/sets.h base/multiversion.h physics offshore geometry
+        sea sim measure)
+    if(folder MATCHES "\\.[ch]$")
         list(APPEND sources src/${folder})
     else()
         file(GLOB_RECURSE found RELATIVE ${ROOT} ${ROOT}/src/${folder}/*.c ${ROOT}/src/${folder}/*.h

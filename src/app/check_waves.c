@@ -48,13 +48,22 @@ static void print_parts(const sb_scene *scene, const sb_wavemaker_use *maker, do
            (row.to - row.from) / (double)row.count / scene->resolution);
 }
 
+/* Less than a hundredth of a per cent is rounding, or of no interest. */
+static const char *per_cent(double share, char text[32])
+{
+    if (100 * share < 0.01) return "below 0.01 %";
+    snprintf(text, 32, "%.2g %%", 100 * share);
+    return text;
+}
+
 static void print_absorption(const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
 {
     const double reflection = paddle_reflection(scene, maker, paddle);
     if (isnan(reflection)) return;
     const sb_wave_facts *facts = paddle->kind->facts(paddle->state);
-    printf("    absorbs within %.3g m of its law; predicted reflection at %.4g s %.2g %%; forgets levels in %.3g s\n",
-           maker->law.reach, facts->period, 100 * reflection, 1 / facts->slow);
+    char text[32];
+    printf("    absorbs within %.3g m of its law; predicted reflection at %.4g s %s; forgets levels in %.3g s\n",
+           maker->law.reach, facts->period, per_cent(reflection, text), 1 / facts->slow);
 }
 
 static void print_train(void *context, const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
@@ -147,10 +156,12 @@ void sb_check_waves_text(const sb_scene *scene, const sb_model *model)
     for (size_t s = 0; s < scene->sponge_count; s++) {
         const sb_sponge *sponge = &scene->sponges[s];
         const bool viscous = sponge->kind == SB_SPONGE_VISCOUS;
-        printf("  sponge %s: %.3g wavelengths of %.4g m, %s %.3g %s; predicted reflection %.2g %%\n", sponge->name,
-               sponge->length / wavelength_of(scene, sponge), wavelength_of(scene, sponge),
-               viscous ? "viscosity" : "strength", viscous ? viscosity_of(scene, model, sponge) : sponge->strength,
-               viscous ? "m^2/s" : "1/s", 100 * reflection_of(scene, model, sponge));
+        char text[32];
+        printf("  sponge %s: %.3g m, %.3g times the wavelength of %.4g m, %s %.3g %s; predicted reflection %s\n",
+               sponge->name, sponge->length, sponge->length / wavelength_of(scene, sponge),
+               wavelength_of(scene, sponge), viscous ? "viscosity" : "strength",
+               viscous ? viscosity_of(scene, model, sponge) : sponge->strength, viscous ? "m^2/s" : "1/s",
+               per_cent(reflection_of(scene, model, sponge), text));
     }
 }
 

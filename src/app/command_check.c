@@ -135,6 +135,7 @@ static void report_terrain(const sb_model *model)
 
 static void report_text(const sb_scene *scene, const sb_model *model, const estimate *e)
 {
+    const int threads = omp_get_max_threads();
     printf("%s\n", scene->title);
     printf("  spacing            %g m in %dD\n", scene->resolution, scene->dimensions);
     printf("  fluid particles    %zu\n", model->fluid_count);
@@ -153,7 +154,7 @@ static void report_text(const sb_scene *scene, const sb_model *model, const esti
     printf("  steps              about %.0f of %.3g s\n", e->steps, e->time_step);
     if (e->settling > 0)
         printf("  settling           about %d steps before t = 0, at most %d\n", e->settling, e->settling_most);
-    printf("  run time           about %.0f s on %d threads%s\n", e->seconds, omp_get_max_threads(),
+    printf("  run time           about %.0f s on %d thread%s%s\n", e->seconds, threads, threads == 1 ? "" : "s",
            e->settling > 0 ? ", including settling" : "");
     printf("  disk               about %.0f MB\n", e->disk / 1e6);
     report_terrain(model);

@@ -104,13 +104,14 @@ static void print_json(void *context, const char *text)
 
 static void report_text(const sb_scene *scene, const sb_grid_facts *f, double steps, double seconds)
 {
+    const int threads = omp_get_max_threads();
     printf("%s\n", scene->title);
     printf("  cells              %zu x %zu of %g m, %zu wet\n", f->columns, f->rows, scene->offshore.cell, f->wet);
     printf("  equations          %s\n", scene->offshore.dispersion ? "Serre-Green-Naghdi" : "shallow water");
     printf("  greatest depth     %g m\n", f->deepest);
-    printf("  memory             about %.0f MB\n", f->bytes / 1e6);
+    printf("  memory             about %.*f MB\n", f->bytes < 1e7 ? 1 : 0, f->bytes / 1e6);
     printf("  steps              about %.0f of %.3g s\n", steps, f->time_step);
-    printf("  run time           about %.3g s on %d threads\n", seconds, omp_get_max_threads());
+    printf("  run time           about %.3g s on %d thread%s\n", seconds, threads, threads == 1 ? "" : "s");
     sb_grid_water_warnings(scene, f, print_line, NULL);
 }
 

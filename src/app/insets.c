@@ -61,11 +61,6 @@ static sb_status add_row(sb_inset_rows *plot, double time, double value, sb_erro
     return SB_OK;
 }
 
-static double component(sb_vec3 v, unsigned axis)
-{
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 static sb_status add_step(sb_insets *insets, const sb_measure_records *records, sb_error *error)
 {
     sb_status status = SB_OK;
@@ -74,8 +69,8 @@ static sb_status add_step(sb_insets *insets, const sb_measure_records *records, 
         sb_inset_rows *plot = &insets->plots[p];
         for (size_t i = 0; !*inset->gauge && i < records->force_count && status == SB_OK; i++)
             if (records->forces[i].body == plot->index)
-                status =
-                    add_row(plot, records->forces[i].time, component(records->forces[i].force, inset->axis), error);
+                status = add_row(plot, records->forces[i].time,
+                                 sb_component(records->forces[i].force, (int)inset->axis), error);
         for (size_t i = 0; *inset->gauge && i < records->gauge_count && status == SB_OK; i++) {
             const sb_gauge_record *row = &records->gauges[i];
             const bool level = insets->scene->sea.present;

@@ -19,6 +19,14 @@ sb_status sb_run_check_directory(run *r, const struct sb_run_options *options, s
    folder that is not a directory, is a symbolic link, or cannot be written to. */
 sb_status sb_run_check_folders(const run *r, sb_error *error);
 
+/* run_consumers.c: sets up particle files and stream, before anything of them is started. */
+void sb_run_name_consumers(run *r);
+
+/* run_consumers.c: starts the consumers that the scene asks for, and notes those that are off in r->off. In a new run
+   it is called before settling, so that the renderer is made during settling; in a resumed run after the checkpoint was
+   loaded, which lists the files that exist. SB_FAILED if the system refuses a thread. */
+sb_status sb_run_start_consumers(run *r, sb_error *error);
+
 /* run_finish.c: completes all files, however the run ended. *status and *error keep the first failure. */
 void sb_run_finish(run *r, sb_status *status, sb_error *error);
 

@@ -91,14 +91,14 @@ void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *con
         const sb_wavemaker_parameters *law = &scene->wavemakers[w].law;
         if (isinf(law->start) && !scene->control.enabled) {
             snprintf(text, sizeof text,
-                     "wave maker %s: its start waits for a command, and commands are off: it never moves; expected "
+                     "wave maker \"%s\": its start waits for a command, and commands are off: it never moves; expected "
                      "control.enabled: true, or --control",
                      scene->wavemakers[w].name);
             visit(context, text);
         }
         const char *warning = law->kind->warning ? law->kind->warning(law) : NULL;
         if (!warning) continue;
-        snprintf(text, sizeof text, "wave maker %s: %s", scene->wavemakers[w].name, warning);
+        snprintf(text, sizeof text, "wave maker \"%s\": %s", scene->wavemakers[w].name, warning);
         visit(context, text);
     }
     const sb_initial_wave *wave = &scene->wave;

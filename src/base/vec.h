@@ -55,6 +55,11 @@ static inline sb_vec3 sb_max(sb_vec3 a, sb_vec3 b)
 {
     return sb_vec(a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z);
 }
+/* axis: 0, 1 or 2 for x, y or z. */
+static inline double sb_component(sb_vec3 a, int axis)
+{
+    return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
 static inline int sb_isfinite(sb_vec3 a)
 {
     return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);

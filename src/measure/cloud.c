@@ -1,6 +1,7 @@
 #include "measure/cloud.h"
 
 #include "base/memory.h"
+#include "base/sets.h"
 
 #include <stdlib.h>
 
@@ -61,25 +62,6 @@ static int compare_slots(const void *left, const void *right)
     const sb_cloud_slot *a = left, *b = right;
     if (a->key != b->key) return a->key < b->key ? -1 : 1;
     return (a->index > b->index) - (a->index < b->index);
-}
-
-static uint32_t root_of(uint32_t *parents, uint32_t i)
-{
-    while (parents[i] != i) {
-        parents[i] = parents[parents[i]];
-        i = parents[i];
-    }
-    return i;
-}
-
-static void unite(uint32_t *parents, uint32_t a, uint32_t b)
-{
-    a = root_of(parents, a);
-    b = root_of(parents, b);
-    if (a < b)
-        parents[b] = a;
-    else
-        parents[a] = b;
 }
 
 /* First slot whose key is >= key. */
@@ -146,7 +128,7 @@ static void join_neighbours(sb_cloud *cloud, size_t s, double link)
             for (size_t t = lower_bound(cloud->slots, s, first); t < s && cloud->slots[t].key <= last; t++) {
                 uint32_t j = cloud->slots[t].index;
                 sb_vec3 d = sb_sub(cloud->samples[i].position, cloud->samples[j].position);
-                if (sb_dot(d, d) < link * link) unite(cloud->parents, i, j);
+                if (sb_dot(d, d) < link * link) sb_sets_join(cloud->parents, i, j);
             }
         }
 }
@@ -159,7 +141,7 @@ static sb_status find_largest(sb_cloud *cloud, double link, bool by_weight, uint
     for (size_t s = 1; s < cloud->count; s++) join_neighbours(cloud, s, link);
     uint32_t largest = 0;
     for (size_t i = 0; i < cloud->count; i++) {
-        uint32_t root = root_of(cloud->parents, (uint32_t)i);
+        uint32_t root = sb_sets_root(cloud->parents, (uint32_t)i);
         cloud->sizes[root] += by_weight ? cloud->samples[i].density : 1;
         if (cloud->sizes[root] > cloud->sizes[largest]) largest = root;
     }
@@ -175,7 +157,7 @@ static sb_status keep_group(sb_cloud *cloud, double link, bool by_weight, sb_err
     if (status != SB_OK) return status;
     size_t kept = 0;
     for (size_t i = 0; i < cloud->count; i++)
-        if (root_of(cloud->parents, (uint32_t)i) == largest) cloud->samples[kept++] = cloud->samples[i];
+        if (sb_sets_root(cloud->parents, (uint32_t)i) == largest) cloud->samples[kept++] = cloud->samples[i];
     cloud->count = kept;
     return SB_OK;
 }
@@ -204,7 +186,7 @@ sb_status sb_cloud_mark_largest(sb_cloud *cloud, double link, sb_error *error)
     if (cloud->count == 0) return SB_OK;
     sb_status status = find_largest(cloud, link, false, &largest, error);
     for (size_t i = 0; status == SB_OK && i < cloud->count; i++)
-        if (root_of(cloud->parents, (uint32_t)i) == largest) cloud->marks[i] = true;
+        if (sb_sets_root(cloud->parents, (uint32_t)i) == largest) cloud->marks[i] = true;
     return status;
 }
 

@@ -105,7 +105,7 @@ typedef struct sb_sponge {
     double alpha;         /* artificial viscosity there, with kind viscous */
 } sb_sponge;
 
-/* Spray, foam and bubbles: particles for pictures, which the water does not feel. */
+/* Spray, foam and bubbles: particles for pictures, which do not act on the water. */
 typedef struct sb_foam_settings {
     bool enabled;
     int most;        /* particles */

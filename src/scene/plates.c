@@ -19,11 +19,6 @@ static const sb_body *body_of(const sb_scene *scene, const sb_wavemaker_use *use
     return NULL;
 }
 
-static double part(sb_vec3 v, int axis)
-{
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 size_t sb_scene_plates(const sb_scene *scene, const sb_wavemaker_use *use, sb_plate_row *row)
 {
     const sb_body *body = body_of(scene, use);
@@ -31,9 +26,9 @@ size_t sb_scene_plates(const sb_scene *scene, const sb_wavemaker_use *use, sb_pl
     *row = (sb_plate_row){0};
     if (!(flap || use->plates.width > 0) || !body) return 0;
     row->axis = flap ? 2 : fabs(use->direction.x) > fabs(use->direction.y) ? 1 : 0;
-    const double move = part(body->translate, row->axis);
-    row->from = fmax(part(body->min, row->axis) + move, part(scene->domain.min, row->axis));
-    row->to = fmin(part(body->max, row->axis) + move, part(scene->domain.max, row->axis));
+    const double move = sb_component(body->translate, row->axis);
+    row->from = fmax(sb_component(body->min, row->axis) + move, sb_component(scene->domain.min, row->axis));
+    row->to = fmin(sb_component(body->max, row->axis) + move, sb_component(scene->domain.max, row->axis));
     if (flap) row->from = scene->sea.level - use->law.depth;
     const double width = flap ? ROW * scene->resolution : use->plates.width;
     row->count = (size_t)fmin(fmax(round((row->to - row->from) / width), 1), 1e6);

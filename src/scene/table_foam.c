@@ -5,8 +5,8 @@
 /* clang-format off */
 static const sb_key keys[] = {
     {.name = "enabled", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_foam_settings, enabled), .fallback = "false",
-     .doc = "Whether breaking water emits spray, foam and bubbles. They are drawn and written; the water does not feel "
-            "them."},
+     .doc = "Whether breaking water emits spray, foam and bubbles. They are drawn and written; they do not act on the "
+            "water."},
     {.name = "most", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_foam_settings, most), .unit = "particles", .min = 1,
      .max = 10000000, .fallback = "100000",
      .doc = "Largest number of particles of foam at one time. From half of it on, water emits fewer."},

@@ -1,15 +1,11 @@
-#include "scene/reader.h"
+/* Tables of measurements but planes and run-up lines (table_planes.c) and reflections (table_reflections.c). */
+#include "scene/table_planes.h"
 
 #include <math.h>
 
 static bool inside(double value, double min, double max)
 {
     return value >= min && value <= max;
-}
-
-static sb_status refuse_outside(sb_reader *reader, const sb_yaml *map, const char *key)
-{
-    return sb_reader_fail(reader, map, key, "is outside of the domain, expected inside");
 }
 
 static const char *const gauge_water_names[] = {"particles", "grid", NULL};
@@ -58,12 +54,12 @@ static sb_status finish_gauge(sb_reader *reader, const sb_yaml *map, void *item)
         if (chosen)
             return sb_reader_fail(reader, map, "water",
                                   "needs particles and a grid, expected a scene with sea: {source: offshore}");
-        return of_domain ? refuse_outside(reader, map, of_domain) : SB_OK;
+        return of_domain ? sb_table_refuse_outside(reader, map, of_domain) : SB_OK;
     }
     if (!chosen) gauge->water = of_domain ? SB_GAUGE_GRID : SB_GAUGE_PARTICLES;
     if (gauge->water == SB_GAUGE_GRID && of_grid)
         return sb_reader_fail(reader, map, of_grid, "is outside of the domain and of the grid, expected inside");
-    return gauge->water == SB_GAUGE_PARTICLES && of_domain ? refuse_outside(reader, map, of_domain) : SB_OK;
+    return gauge->water == SB_GAUGE_PARTICLES && of_domain ? sb_table_refuse_outside(reader, map, of_domain) : SB_OK;
 }
 
 static const sb_table gauge_table = {SB_KEY_ROWS(gauge_keys), .size = sizeof(sb_gauge), .variant = gauge_variant,
@@ -88,178 +84,10 @@ static sb_status finish_probe(sb_reader *reader, const sb_yaml *map, void *item)
     if (inside(at.x, domain->min.x, domain->max.x) && inside(at.y, domain->min.y, domain->max.y) &&
         inside(at.z, domain->min.z, domain->max.z))
         return SB_OK;
-    return refuse_outside(reader, map, "at");
+    return sb_table_refuse_outside(reader, map, "at");
 }
 
 static const sb_table probe_table = {SB_KEY_ROWS(probe_keys), .size = sizeof(sb_probe), .finish = finish_probe};
-
-/* Whether two intervals are disjoint. */
-static bool disjoint(double a0, double a1, double b0, double b1)
-{
-    return !(fmax(a0, a1) >= b0 && fmin(a0, a1) <= b1);
-}
-
-/* Whether the rectangle between two points overlaps the domain. */
-static bool meets_domain(const sb_scene *scene, double ax, double ay, double bx, double by)
-{
-    const sb_domain *d = &scene->domain;
-    return !disjoint(ax, bx, d->min.x, d->max.x) && (scene->dimensions == 2 || !disjoint(ay, by, d->min.y, d->max.y));
-}
-
-enum { RECORDED = 1 };
-
-static unsigned plane_variant(const void *item, const sb_yaml *map)
-{
-    (void)map;
-    return ((const sb_flow_plane *)item)->record ? RECORDED : 0;
-}
-
-/* clang-format off */
-static const sb_key eurotop_keys[] = {
-    {.name = "height", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, height), .unit = "m",
-     SB_KEY_NOT_NEGATIVE, .fallback = "0",
-     .doc = "Significant height H_m0 of the incoming waves at the structure's toe; 0: the rate is not compared."},
-    {.name = "crest", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, crest), .unit = "m", SB_KEY_ANY,
-     .derived = "z_min of the plane", .doc = "z of the structure's crest, above water.level."},
-    {.name = "slope", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, slope), SB_KEY_NOT_NEGATIVE,
-     .fallback = "0", .doc = "Tangent of the structure's smooth slope; 0: a vertical wall."},
-    {.name = "period", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, period), .unit = "s",
-     SB_KEY_NOT_NEGATIVE, .fallback = "0", .doc = "Spectral period T_m-1,0 of the waves; needed for a slope."},
-    {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, start), .unit = "s",
-     SB_KEY_NOT_NEGATIVE, .fallback = "0", .doc = "Time from which the rate is the mean."},
-};
-/* clang-format on */
-
-static const sb_table eurotop_table = {SB_KEY_ROWS(eurotop_keys), .size = sizeof(sb_eurotop_settings)};
-
-/* clang-format off */
-static const sb_key plane_keys[] = {
-    {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_flow_plane, name), .flags = SB_KEY_REQUIRED,
-     .doc = "Unique name of the plane."},
-    {.name = "from", .type = SB_KEY_PLACE, SB_KEY_AT(sb_flow_plane, ax), .unit = "m", SB_KEY_ANY,
-     .flags = SB_KEY_REQUIRED, .doc = "One end of the plane's footprint, [x, y]; [x] in 2D."},
-    {.name = "to", .type = SB_KEY_PLACE, SB_KEY_AT(sb_flow_plane, bx), .unit = "m", SB_KEY_ANY,
-     .flags = SB_KEY_REQUIRED_3D, .derived = "as `from`",
-     .doc = "The other end. Flow to the right, seen from the first end, is positive (+x in 2D)."},
-    {.name = "z_min", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_flow_plane, z_min), .unit = "m",
-     SB_KEY_ANY, .derived = "z of domain.min", .doc = "Lower edge of the plane."},
-    {.name = "z_max", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_flow_plane, z_max), .unit = "m",
-     SB_KEY_ANY, .derived = "z of domain.max", .doc = "Upper edge of the plane."},
-    {.name = "eurotop", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_flow_plane, eurotop), .table = &eurotop_table,
-     .doc = "Compares the mean rate of overtopping with EurOtop 2018, in `summary.json`."},
-    {.name = "record", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_flow_plane, record), .fallback = "false",
-     .doc = "Whether surface and velocities over depth along the plane are written to `record.csv`, for `sea.source: "
-            "record`."},
-    {.name = "record_interval", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_flow_plane, record_interval), .unit = "s",
-     SB_KEY_POSITIVE, .applies = RECORDED, .only = "a plane that is recorded", .derived = "measure.interval",
-     .doc = "Time between rows of the record, a multiple of measure.interval."},
-    {.name = "record_spacing", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_flow_plane, record_spacing), .unit = "m",
-     SB_KEY_POSITIVE, .applies = RECORDED, .only = "a plane that is recorded", .derived = "4 resolution",
-     .doc = "Distance of the record's points along the plane; 2D has one point."},
-};
-/* clang-format on */
-
-/* Rows of a record lie on rows of the other tables. */
-static sb_status finish_record(sb_reader *reader, const sb_yaml *map, sb_flow_plane *plane)
-{
-    const sb_scene *scene = reader->scene;
-    const double interval = scene->measure.interval, most = 10000;
-    if (!sb_yaml_child(map, "record_interval")) plane->record_interval = interval;
-    if (!sb_yaml_child(map, "record_spacing")) plane->record_spacing = 4 * scene->resolution;
-    const double ratio = plane->record_interval / interval;
-    if (!(ratio > 0.5 && fabs(ratio - round(ratio)) < 1e-6 * ratio))
-        return sb_reader_fail(reader, map, "record_interval",
-                              "%g s is not a multiple of measure.interval, expected %g s "
-                              "or a multiple",
-                              plane->record_interval, interval);
-    const double points = hypot(plane->bx - plane->ax, plane->by - plane->ay) / plane->record_spacing;
-    if (!(points <= most))
-        return sb_reader_fail(reader, map, "record_spacing", "%g m makes %.0f points, expected at most %g",
-                              plane->record_spacing, points, most);
-    return SB_OK;
-}
-
-/* In 2D a plane is one metre wide in y, so that volumes are per metre. Only its x is used. */
-static void flatten_plane(const sb_yaml *map, sb_flow_plane *plane)
-{
-    if (!sb_yaml_child(map, "to")) plane->bx = plane->ax;
-    plane->ay = -0.5;
-    plane->by = 0.5;
-}
-
-static sb_status finish_eurotop(sb_reader *reader, const sb_yaml *map, sb_flow_plane *plane)
-{
-    const sb_yaml *block = sb_yaml_child(map, "eurotop");
-    sb_eurotop_settings *e = &plane->eurotop;
-    const sb_sea *sea = &reader->scene->sea;
-    if (!block) return SB_OK;
-    if (!sb_yaml_child(block, "crest")) e->crest = plane->z_min;
-    if (sb_yaml_child(block, "height") && e->height == 0) return SB_OK; /* not compared */
-    if (!(e->height > 0))
-        return sb_reader_fail(reader, map, "eurotop",
-                              "height is missing, expected H_m0 of the incoming waves in metres");
-    if (!sea->present)
-        return sb_reader_fail(reader, map, "eurotop", "the freeboard is not known, expected water.level");
-    if (!(e->crest >= sea->level))
-        return sb_reader_fail(reader, map, "eurotop",
-                              "a crest at %g m is below the still water at %g m, expected one above it", e->crest,
-                              sea->level);
-    if (e->slope > 0 && !(e->period > 0))
-        return sb_reader_fail(reader, map, "eurotop",
-                              "period is missing, expected T_m-1,0 of the waves in s for a slope");
-    return SB_OK;
-}
-
-static sb_status finish_plane(sb_reader *reader, const sb_yaml *map, void *item)
-{
-    sb_flow_plane *plane = item;
-    const sb_scene *scene = reader->scene;
-    if (!sb_yaml_child(map, "z_min")) plane->z_min = scene->domain.min.z;
-    if (!sb_yaml_child(map, "z_max")) plane->z_max = scene->domain.max.z;
-    if (!(plane->z_min < plane->z_max))
-        return sb_reader_fail(reader, map, "z_max", "%g m is not above z_min, expected > %g", plane->z_max,
-                              plane->z_min);
-    if (scene->dimensions == 2) flatten_plane(map, plane);
-    if (scene->dimensions == 2 && plane->ax != plane->bx)
-        return sb_reader_fail(reader, map, "to",
-                              "x differs from that of from, expected the same "
-                              "in 2D");
-    if (plane->ax == plane->bx && plane->ay == plane->by)
-        return sb_reader_fail(reader, map, "to", "is the same point as from, expected a different point");
-    if (disjoint(plane->z_min, plane->z_max, scene->domain.min.z, scene->domain.max.z))
-        return refuse_outside(reader, map, sb_yaml_child(map, "z_min") ? "z_min" : "z_max");
-    if (!meets_domain(scene, plane->ax, plane->ay, plane->bx, plane->by)) return refuse_outside(reader, map, "from");
-    sb_status status = finish_eurotop(reader, map, plane);
-    return status == SB_OK && plane->record ? finish_record(reader, map, plane) : status;
-}
-
-static const sb_table plane_table = {SB_KEY_ROWS(plane_keys), .size = sizeof(sb_flow_plane), .variant = plane_variant,
-                                     .finish = finish_plane};
-
-/* clang-format off */
-static const sb_key runup_keys[] = {
-    {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_runup_line, name), .flags = SB_KEY_REQUIRED,
-     .doc = "Unique name of the line."},
-    {.name = "from", .type = SB_KEY_PLACE, SB_KEY_AT(sb_runup_line, ax), .unit = "m", SB_KEY_ANY,
-     .flags = SB_KEY_REQUIRED,
-     .doc = "First end of the line, [x, y]; [x] in 2D: in the sea, or on land. The front is the distance from this "
-            "point."},
-    {.name = "to", .type = SB_KEY_PLACE, SB_KEY_AT(sb_runup_line, bx), .unit = "m", SB_KEY_ANY,
-     .flags = SB_KEY_REQUIRED, .doc = "The other end of the line."},
-};
-/* clang-format on */
-
-static sb_status finish_runup(sb_reader *reader, const sb_yaml *map, void *item)
-{
-    const sb_runup_line *line = item;
-    const sb_scene *scene = reader->scene;
-    if (line->ax == line->bx && (scene->dimensions == 2 || line->ay == line->by))
-        return sb_reader_fail(reader, map, "to", "%s, expected a different point",
-                              scene->dimensions == 2 ? "has the same x as from" : "is the same point as from");
-    return meets_domain(scene, line->ax, line->ay, line->bx, line->by) ? SB_OK : refuse_outside(reader, map, "from");
-}
-
-static const sb_table runup_table = {SB_KEY_ROWS(runup_keys), .size = sizeof(sb_runup_line), .finish = finish_runup};
 
 /* clang-format off */
 static const sb_key map_keys[] = {
@@ -304,9 +132,9 @@ static sb_status finish_map(sb_reader *reader, const sb_yaml *map, void *item)
     if (!(ceil(width / grid->cell) * ceil(height / grid->cell) <= most))
         return sb_reader_fail(reader, map, "cell", "%g m would make more than %g cells, expected larger cells",
                               grid->cell, most);
-    return meets_domain(reader->scene, grid->x_min, grid->y_min, grid->x_max, grid->y_max)
+    return sb_table_meets_domain(reader->scene, grid->x_min, grid->y_min, grid->x_max, grid->y_max)
                ? SB_OK
-               : refuse_outside(reader, map, "min");
+               : sb_table_refuse_outside(reader, map, "min");
 }
 
 static const sb_table map_table = {SB_KEY_ROWS(map_keys), .size = sizeof(sb_map), .finish = finish_map};
@@ -354,10 +182,10 @@ static const sb_key measure_keys[] = {
      SB_KEY_ITEMS(sb_measure_settings, probes, probe_count), .table = &probe_table,
      .doc = "Probes of velocity and pressure at a point. On a wall the pressure is a mean over the interval."},
     {.name = "planes", .type = SB_KEY_LIST,
-     SB_KEY_ITEMS(sb_measure_settings, planes, plane_count), .table = &plane_table,
+     SB_KEY_ITEMS(sb_measure_settings, planes, plane_count), .table = &sb_plane_table,
      .doc = "Vertical planes through which volumes are measured, for example overtopping."},
     {.name = "runups", .type = SB_KEY_LIST,
-     SB_KEY_ITEMS(sb_measure_settings, runups, runup_count), .table = &runup_table,
+     SB_KEY_ITEMS(sb_measure_settings, runups, runup_count), .table = &sb_runup_table,
      .doc = "Lines along which run-up and front are measured, of the water that is connected with the water at the "
             "line's first end. Other water on the line is measured separately."},
     {.name = "reflections", .type = SB_KEY_LIST,

@@ -165,7 +165,7 @@ static const sb_key scene_keys[] = {
      .doc = "Laws by which bodies move."},
     {.name = "sponges", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_scene, sponges, sponge_count),
      .table = &sb_sponge_table, WITH_PARTICLES,
-     .doc = "Zones in which waves die out; see [a wave basin](waves.md)."},
+     .doc = "Zones in which waves die out; see [waves](waves.md)."},
     {.name = "foam", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, foam), .table = &sb_foam_table, WITH_PARTICLES,
      .doc = "Spray, foam and bubbles in pictures and files; see [pictures](pictures.md#foam-and-spray)."},
     {.name = "measure", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, measure),

@@ -75,7 +75,7 @@ static const sb_key component_keys[] = {
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Amplitude, half of the height."},
     {.name = "wavelength", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_component, wavelength), .unit = "m",
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Wavelength."},
-    {.name = "phase", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_component, phase), .unit = "degrees", SB_KEY_ANY,
+    {.name = "phase", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_component, phase), .unit = "deg", SB_KEY_ANY,
      .fallback = "0", .doc = "Phase at `position`; 0: a crest."},
     {.name = "direction", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_initial_component, direction), .min = -1, .max = 1,
      .fallback = "1", .doc = "Direction of travel: 1 towards +x, -1 towards -x; 0 is an error."},

@@ -2,6 +2,7 @@
 #include "surface/waters.h"
 
 #include "base/memory.h"
+#include "base/sets.h"
 #include "surface/level.h"
 
 enum { SIDE = SB_BLOCK_SIDE, WIDE = SB_BLOCK_SIDE + 1 };
@@ -9,23 +10,6 @@ static const uint32_t none = UINT32_MAX;
 
 /* Node numbers of a block and of those at the low sides of its neighbours; `none` outside of the water. */
 typedef uint32_t cube[WIDE][WIDE][WIDE];
-
-/* The node that stands for those connected with a node: the first one. Shortens the way to it. */
-static uint32_t root_of(uint32_t *parent, uint32_t node)
-{
-    while (parent[node] != node) node = parent[node] = parent[parent[node]];
-    return node;
-}
-
-static void join(uint32_t *parent, uint32_t a, uint32_t b)
-{
-    a = root_of(parent, a);
-    b = root_of(parent, b);
-    if (a < b)
-        parent[b] = a;
-    else
-        parent[a] = b;
-}
 
 /* Each node's parent: the first of its row in the block, as far as the water goes. */
 static void join_rows(const float *value, size_t nodes, uint32_t *parent)
@@ -59,8 +43,8 @@ static bool collect(const sb_blocks *blocks, size_t block, const uint32_t *paren
 /* Joins two opposite corners of the face a, b, d, c that alone are in the water. Others are joined along edges. */
 static void join_diagonal(uint32_t *parent, uint32_t a, uint32_t b, uint32_t c, uint32_t d)
 {
-    if (a != none && d != none && b == none && c == none) join(parent, a, d);
-    if (b != none && c != none && a == none && d == none) join(parent, b, c);
+    if (a != none && d != none && b == none && c == none) sb_sets_join(parent, a, d);
+    if (b != none && c != none && a == none && d == none) sb_sets_join(parent, b, c);
 }
 
 static void join_block(uint32_t *parent, cube at)
@@ -72,9 +56,9 @@ static void join_block(uint32_t *parent, cube at)
                 const bool follows = /* the rows beside may be joined one node before */
                     x > 0 && at[z][y][x - 1] != none;
                 if (a != none) {
-                    if (x == SIDE - 1 && px != none) join(parent, a, px);
-                    if (py != none && !(follows && at[z][y + 1][x - 1] != none)) join(parent, a, py);
-                    if (pz != none && !(follows && at[z + 1][y][x - 1] != none)) join(parent, a, pz);
+                    if (x == SIDE - 1 && px != none) sb_sets_join(parent, a, px);
+                    if (py != none && !(follows && at[z][y + 1][x - 1] != none)) sb_sets_join(parent, a, py);
+                    if (pz != none && !(follows && at[z + 1][y][x - 1] != none)) sb_sets_join(parent, a, pz);
                 }
                 join_diagonal(parent, a, px, py, at[z][y + 1][x + 1]);
                 join_diagonal(parent, a, px, pz, at[z + 1][y][x + 1]);
@@ -87,7 +71,7 @@ static sb_status number_waters(const uint32_t *node, size_t vertices, uint32_t *
                                sb_waters *waters, sb_error *error)
 {
     for (size_t v = 0; v < vertices; v++) {
-        const uint32_t root = root_of(parent, node[v]);
+        const uint32_t root = sb_sets_root(parent, node[v]);
         if (number[root] == none) number[root] = (uint32_t)waters->count++;
         waters->water[v] = number[root];
     }
@@ -132,7 +116,7 @@ static void count_particles(const sb_blocks *blocks, uint32_t *parent, const uin
         for (uint32_t p = blocks->bin_first[block * blocks->all_bins];
              p < blocks->bin_first[(block + 1) * blocks->all_bins]; p++) {
             const uint32_t node = node_of(blocks, block, p, parent);
-            const uint32_t water = node == none ? none : number[root_of(parent, node)];
+            const uint32_t water = node == none ? none : number[sb_sets_root(parent, node)];
             if (water != none) particles[water]++;
         }
 }

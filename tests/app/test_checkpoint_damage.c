@@ -183,10 +183,11 @@ static void other_builds_are_refused(void **state)
     RUN_AND_FORGET(1, "run", "measured.yaml", "--out", "built", "--other-build");
 }
 
-/* Generates numerics.c for a source tree with this step.c; returns its text. */
-static char *numerics_of(const char *source)
+/* Generates numerics.c for a source tree with this step.c and this flux.c; returns its text. */
+static char *numerics_of(const char *step, const char *flux)
 {
-    write_text("tree/src/sim/step/step.c", source);
+    write_text("tree/src/sim/step/step.c", step);
+    write_text("tree/src/offshore/flux.c", flux);
     char command[1024];
     snprintf(command, sizeof command,
              "cmake -D ROOT=%s -D OUT=%s -D 'HOW=GNU 1.2 \"-O3\"' -P " SB_SOURCE_DIR "/cmake/numerics.cmake",
@@ -198,18 +199,24 @@ static char *numerics_of(const char *source)
 static void a_changed_source_is_another_build(void **state)
 {
     (void)state;
-    static const char *const folders[] = {"tree/src/sim/step", "tree/src/base"};
-    for (int f = 0; f < 2; f++) assert_int_equal(sb_make_directories(in_folder("%s", folders[f]), NULL), SB_OK);
-    write_text("tree/src/base/vec.h", "");
-    write_text("tree/src/base/random.h", "");
-    write_text("tree/src/base/multiversion.h", "");
-    char *one = numerics_of("x = 1;"), *other = numerics_of("x = 2;"), *again = numerics_of("x = 1;");
+    static const char *const folders[] = {"tree/src/sim/step", "tree/src/offshore", "tree/src/base"};
+    static const char *const base[] = {"vec.h", "random.h", "exact.h", "exact.c", "sets.h", "multiversion.h"};
+    for (int f = 0; f < 3; f++) assert_int_equal(sb_make_directories(in_folder("%s", folders[f]), NULL), SB_OK);
+    for (size_t k = 0; k < sizeof base / sizeof *base; k++) {
+        char path[64];
+        snprintf(path, sizeof path, "tree/src/base/%s", base[k]);
+        write_text(path, "");
+    }
+    char *one = numerics_of("x = 1;", ""), *other = numerics_of("x = 2;", ""), *again = numerics_of("x = 1;", "");
+    char *grid = numerics_of("x = 1;", "y = 1;");
     assert_contains(one, ", GNU 1.2 -O3\";");
     assert_string_not_equal(one, other);
+    assert_string_not_equal(one, grid);
     assert_string_equal(one, again);
     sb_free(one);
     sb_free(other);
     sb_free(again);
+    sb_free(grid);
 }
 
 int main(void)

@@ -11,7 +11,8 @@
 #include <string.h>
 #include <sys/wait.h>
 
-static const char *const commands[] = {"run", "check", "sample", "render", "list"};
+static const char *const commands[] = {"run",    "check",   "preview", "sample", "render",
+                                       "report", "compare", "surface", "replay", "list"};
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
 static void help_everywhere(void **state)
@@ -161,6 +162,17 @@ static void check_reports_the_model(void **state)
     outcome_free(&o);
     RUN_AND_FORGET(0, "check", "tank3.yaml", "--set", "resolution=0.2", "--preset", "paper", "--threads=2");
     assert_false(exists("runs"));
+}
+
+/* What rounding leaves of a reflection is not printed. */
+static void check_prints_reflections(void **state)
+{
+    (void)state;
+    outcome o = RUN(0, "check", SB_SOURCE_DIR "/assets/scenes/bar.yaml", "--set", "resolution=0.05", "--threads", "1");
+    assert_contains(o.out, "predicted reflection at 2.02 s below 0.01 %; forgets levels");
+    assert_contains(o.out, "predicted reflection 1.6 %");
+    assert_contains(o.out, " s on 1 thread, including settling");
+    outcome_free(&o);
 }
 
 static void check_in_json(void **state)
@@ -434,6 +446,7 @@ int main(void)
         cmocka_unit_test(mistakes_get_one_line),
         cmocka_unit_test(lists_name_all_choices),
         cmocka_unit_test(check_reports_the_model),
+        cmocka_unit_test(check_prints_reflections),
         cmocka_unit_test(check_in_json),
         cmocka_unit_test(check_knows_the_viscosity_of_the_run),
         cmocka_unit_test(a_lost_result_is_an_error),

@@ -3,41 +3,16 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "stream/forged.h"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 static const double TIMEOUT = 30; /* s */
 
 #define LONG "--set", "duration=2", "--set", "numerics.settle_steps=0"
-
-/* Sends the first two packets of a message of three on the channel of commands. The second states an offset of -16,
-   where LCM's receiver then writes its bytes. */
-static void send_forged_packets(void)
-{
-    const uint32_t offsets[2] = {0, 0xfffffff0U};
-    struct sockaddr_in to = {.sin_family = AF_INET, .sin_port = htons(7667)};
-    inet_pton(AF_INET, "239.255.76.67", &to.sin_addr);
-    const int out = socket(AF_INET, SOCK_DGRAM, 0);
-    const unsigned char this_host = 0;
-    setsockopt(out, IPPROTO_IP, IP_MULTICAST_TTL, &this_host, sizeof this_host);
-    for (uint16_t k = 0; k < 2; k++) {
-        char packet[256] = {0};
-        const uint32_t head[4] = {htonl(0x4c433033), htonl(7), htonl(1U << 20), htonl(offsets[k])};
-        const uint16_t part[2] = {htons(k), htons(3)};
-        memcpy(packet, head, sizeof head);
-        memcpy(packet + 16, part, sizeof part);
-        if (k == 0) snprintf(packet + 20, sizeof packet - 20, "test-%ld_command", (long)getpid());
-        sendto(out, packet, 200, 0, (const struct sockaddr *)&to, sizeof to);
-        usleep(10000);
-    }
-    close(out);
-}
 
 /* The process that receives is replaced by the helper, which remains. */
 static void a_forged_packet_costs_a_second(void **state)
@@ -46,7 +21,9 @@ static void a_forged_packet_costs_a_second(void **state)
     const pid_t run = commander_start("tank2.yaml", "forged", (const char *const[]){LONG, NULL});
     const pid_t helper = child_of(run), receiver = child_of(helper);
     assert_true(helper > 0 && receiver > 0);
-    send_forged_packets();
+    char channel[64];
+    snprintf(channel, sizeof channel, "test-%ld_command", (long)getpid());
+    send_forged_packets("239.255.76.67", 7667, channel);
     for (int k = 0; k < 100 && is_there(receiver); k++) usleep(10000);
     if (is_there(receiver)) {
         print_message("this version of LCM does not crash on forged packets\n");

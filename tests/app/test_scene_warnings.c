@@ -44,6 +44,10 @@ static void check_and_run_give_the_same_warnings(void **state)
         {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
               "bodies: [{name: far, shape: box, min: [90, -1, 0], max: [95, 1, 2]}]\n",
          "body \"far\" has no surface that water could reach", "5 x 2 x 2 m"},
+        {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
+              "bodies: [{name: far, shape: box, min: [90, -1, 0], max: [95, 1, 2]}, "
+              "{name: away, shape: box, min: [80, -1, 0], max: [85, 1, 2]}]\n",
+         "likewise \"away\"", "5 x 2 x 2 m, from (90, -1, 0)"},
         {TANK
          "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\nfluid: {surface_tension: 0.0728}\n",
          "fluid.surface_tension: 0.0728 N/m acts below 0.00272 m", "expected a resolution below 0.00136 m"},

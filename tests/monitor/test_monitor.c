@@ -1,15 +1,13 @@
 /* Runs the monitor program with a log, without a terminal, and with bad options. */
+#include "stream/forged.h"
 #include "stream/stream_fixture.h"
 
 #include "base/clock.h"
 #include "base/hash.h"
 
-#include <arpa/inet.h>
 #include <math.h>
-#include <netinet/in.h>
 #include <signal.h>
 #include <stdlib.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -151,30 +149,6 @@ static void reports_when_no_data_arrive(void **state)
     assert_string_equal(output, "no data for 3 s\n");
 }
 
-/* Sends the first two packets of a message of three. The second states an offset of -16, where LCM's receiver then
-   writes its bytes. */
-static void send_forged_packets(void)
-{
-    static const char channel[] = "shorebreak_status";
-    const uint32_t offsets[2] = {0, 0xfffffff0U};
-    struct sockaddr_in to = {.sin_family = AF_INET, .sin_port = htons(STRAY_PORT)};
-    inet_pton(AF_INET, "239.255.76.68", &to.sin_addr);
-    const int out = socket(AF_INET, SOCK_DGRAM, 0);
-    const unsigned char this_host = 0;
-    setsockopt(out, IPPROTO_IP, IP_MULTICAST_TTL, &this_host, sizeof this_host);
-    for (uint16_t k = 0; k < 2; k++) {
-        char packet[256] = {0};
-        const uint32_t head[4] = {htonl(0x4c433033), htonl(7), htonl(1U << 20), htonl(offsets[k])};
-        const uint16_t part[2] = {htons(k), htons(3)};
-        memcpy(packet, head, sizeof head);
-        memcpy(packet + 16, part, sizeof part);
-        if (k == 0) memcpy(packet + 20, channel, sizeof channel);
-        sendto(out, packet, 200, 0, (const struct sockaddr *)&to, sizeof to);
-        usleep(10000);
-    }
-    close(out);
-}
-
 /* Skipped where the monitor ends because there is no multicast route. */
 static void restarts_after_a_crash_of_its_receiver(void **state)
 {
@@ -182,7 +156,7 @@ static void restarts_after_a_crash_of_its_receiver(void **state)
     const pid_t sender = fork();
     if (sender == 0) {
         usleep(700000);
-        send_forged_packets();
+        send_forged_packets("239.255.76.68", STRAY_PORT, "shorebreak_status");
         _exit(0);
     }
     char options[128];

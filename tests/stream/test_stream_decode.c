@@ -1,18 +1,12 @@
 /* Decoders with invalid and forged messages. Each message is in a block of exactly its size, so that ASan and UBSan
    detect every read beyond its end. */
-#include "stream_fixture.h"
+#include "captured.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-typedef struct message {
-    size_t size;
-    unsigned char bytes[SB_STREAM_MESSAGE_MAX];
-} message;
-
 enum { TYPES = SB_CHANNELS, STATUS = SB_CHANNEL_STATUS, FORCES = SB_CHANNEL_FORCES, FRAME = SB_CHANNEL_FRAME };
 enum { GAUGES = SB_CHANNEL_GAUGES, PARITY = SB_CHANNEL_PARITY, SCENE = SB_CHANNEL_SCENE, REPLY = SB_CHANNEL_REPLY };
-static message good[TYPES];
 static message scene; /* the encoded scene, which fits into one piece */
 /* Offsets of the counts and names in the messages of good[]: after fingerprint, version, run id and sequence. */
 enum { VERSION = 8, RUN_ID = 12, BODY = 28 };
@@ -24,32 +18,14 @@ enum { REPLY_ID = BODY, REPLY_RESULT = BODY + 16, REPLY_TIME = BODY + 25, REPLY_
 enum { PARITY_PARTS = BODY + 8, PARITY_GROUP = BODY + 12, PARITY_COUNT = BODY + 20 };
 enum { PIECE_TOTAL = BODY + 8, PIECE_PIECE = BODY + 16, PIECE_OFFSET = BODY + 24, PIECE_COUNT = BODY + 32 };
 
-static void capture(const lcm_recv_buf_t *received, const char *channel, void *user)
-{
-    (void)user;
-    message *to = &good[sb_channel_guess(channel)];
-    to->size = received->data_size;
-    memcpy(to->bytes, received->data, received->data_size);
-}
-
 static int capture_all(void **state)
 {
     (void)state;
     fixture_scene f;
-    fixture_scene_make(&f, 4, 3);
-    sb_stream *stream = fixture_stream("memq://", 0, 1);
-    sb_stream_set_scene(stream, &f.scene, &f.model, NULL);
-    lcm_subscribe(sb_stream_provider(stream), ".*", capture, NULL);
-    sb_measure_records rows = fixture_rows(&f, 4.5);
-    sb_stream_measure(stream, &rows);
-    fixture_rows_free(&rows);
-    const sb_reply_message reply = {.id = 7, .counter = 8, .step = 9, .time = 4.5, .text = "paused"};
-    sb_stream_reply(stream, &reply);
-    sb_frame *frame = fixture_frame(3, 4.5, 50, 4);
-    fixture_publish(stream, frame);
-    sb_frame_release(frame);
-    frame = fixture_frame(4, 5, 8 * SB_STREAM_POINTS, 4); /* large enough for parity */
-    const message part = (fixture_drain(stream), good[FRAME]);
+    sb_stream *stream = captured_stream(&f, 50);
+    if (!stream) return -1;
+    const message part = good[FRAME];
+    sb_frame *frame = fixture_frame(4, 5, 8 * SB_STREAM_POINTS, 4); /* large enough for parity */
     fixture_publish(stream, frame);
     sb_frame_release(frame);
     fixture_drain(stream);

@@ -1,42 +1,16 @@
 /* Numbers that are not finite, at every place of every message and of the scene: they are refused, or they were not
    read as a number. No decoder lets one through to a subscriber. */
-#include "stream_fixture.h"
+#include "captured.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-typedef struct message {
-    size_t size;
-    unsigned char bytes[SB_STREAM_MESSAGE_MAX];
-} message;
-
-static message good[SB_CHANNELS];
-
-static void capture(const lcm_recv_buf_t *received, const char *channel, void *user)
-{
-    (void)user;
-    message *to = &good[sb_channel_guess(channel)];
-    to->size = received->data_size;
-    memcpy(to->bytes, received->data, received->data_size);
-}
 
 static int capture_all(void **state)
 {
     (void)state;
     fixture_scene f;
-    fixture_scene_make(&f, 4, 3);
-    sb_stream *stream = fixture_stream("memq://", 0, 1);
-    if (sb_stream_set_scene(stream, &f.scene, &f.model, NULL) != SB_OK) return -1;
-    lcm_subscribe(sb_stream_provider(stream), ".*", capture, NULL);
-    sb_measure_records rows = fixture_rows(&f, 4.5);
-    sb_stream_measure(stream, &rows);
-    fixture_rows_free(&rows);
-    const sb_reply_message reply = {.id = 7, .counter = 8, .step = 9, .time = 4.5, .text = "paused"};
-    sb_stream_reply(stream, &reply);
-    sb_frame *frame = fixture_frame(3, 4.5, 20, 4);
-    fixture_publish(stream, frame);
-    sb_frame_release(frame);
-    fixture_drain(stream);
+    sb_stream *stream = captured_stream(&f, 20);
+    if (!stream) return -1;
     sb_stream_destroy(stream);
     fixture_scene_free(&f);
     return 0;

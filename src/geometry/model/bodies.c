@@ -205,7 +205,7 @@ static sb_status check_wavemakers(const sb_scene *scene, const sb_model *model, 
         for (size_t b = 0; b < model->body_count; ++b) used = used || model->bodies[b].wavemaker == (int)i;
         if (!used)
             return sb_fail(error, SB_BAD_INPUT,
-                           "wavemaker \"%s\": body \"%s\" is not among the bodies: expected the "
+                           "wave maker \"%s\": body \"%s\" is not among the bodies: expected the "
                            "name of one",
                            scene->wavemakers[i].name, scene->wavemakers[i].body);
     }

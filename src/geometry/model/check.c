@@ -60,9 +60,9 @@ static sb_status check_height(const sb_model *model, const char *what, const cha
                               sb_error *error)
 {
     if (!(height > 0) || height >= HEIGHT_MIN * model->spacing) return SB_OK;
-    return sb_model_warn(to, error, "%s%s%s%s: a wave height of %g m is %.2g particle spacings: expected %d or more",
-                         what, name ? " \"" : "", name ? name : "", name ? "\"" : "", height, height / model->spacing,
-                         HEIGHT_MIN);
+    return sb_model_warn(
+        to, error, "%s%s%s%s: a wave height of %g m is %.2g times the particle spacing: expected %d times or more",
+        what, name ? " \"" : "", name ? name : "", name ? "\"" : "", height, height / model->spacing, HEIGHT_MIN);
 }
 
 /* DEPTH_SLACK (spacings) and DEPTH_SHARE (of the depth): difference between a law's still-water depth and the actual
@@ -138,7 +138,7 @@ static sb_status check_depths(const sb_scene *scene, const sb_model_space *space
                     front = fmax(front, sb_dot(model->wall_position[i], maker->direction));
         if (!(maker->law.depth > 0) || !isfinite(front)) continue;
         snprintf(name, sizeof name, " \"%s\"", maker->name);
-        status = check_depth(&c, "wavemaker", name, maker->law.depth, maker->direction, front, front + near, error);
+        status = check_depth(&c, "wave maker", name, maker->law.depth, maker->direction, front, front + near, error);
     }
     return status;
 }
@@ -152,14 +152,14 @@ static sb_status check_water(const sb_scene *scene, const sb_model_space *space,
                              0.5 * model->spacing);
     sb_status status = SB_OK;
     if (model->still_depth < DEPTH_MIN * model->spacing)
-        status =
-            sb_model_warn(model, error, "the water is at most %g m deep, %.2g particle spacings: expected %d or more",
-                          model->still_depth, model->still_depth / model->spacing, DEPTH_MIN);
+        status = sb_model_warn(
+            model, error, "the water is at most %g m deep, %.2g times the particle spacing: expected %d times or more",
+            model->still_depth, model->still_depth / model->spacing, DEPTH_MIN);
     if (status == SB_OK && scene->wave.kind != SB_INITIAL_NONE)
         status = check_height(model, "initial wave", NULL, scene->wave.height, model, error);
     for (size_t i = 0; i < scene->wavemaker_count && status == SB_OK; ++i)
         status =
-            check_height(model, "wavemaker", scene->wavemakers[i].name, scene->wavemakers[i].law.height, model, error);
+            check_height(model, "wave maker", scene->wavemakers[i].name, scene->wavemakers[i].law.height, model, error);
     return status == SB_OK ? check_depths(scene, space, model, error) : status;
 }
 
@@ -189,6 +189,7 @@ sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_
         if (status == SB_OK) status = sb_model_check_thickness(scene, space, model, body, error);
         if (status == SB_OK) status = sb_model_warn_place(scene, body, space->solid[i], model, error);
     }
+    if (status == SB_OK) status = sb_model_warn_elsewhere(scene, model, error);
     if (status == SB_OK) status = sb_model_warn_thin(scene, model, error);
     if (status == SB_OK) status = sb_model_warn_shared(scene, model, error);
     if (status == SB_OK) status = sb_model_warn_ground(scene, space, model, error);

@@ -32,14 +32,6 @@ typedef struct search {
     size_t named;
 } search;
 
-static int face_of(sb_vec3 normal)
-{
-    const double size[3] = {fabs(normal.x), fabs(normal.y), fabs(normal.z)};
-    const int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
-    const double along = axis == 0 ? normal.x : axis == 1 ? normal.y : normal.z;
-    return 2 * axis + (along > 0);
-}
-
 static bool is_checked(const sb_model_body *body)
 {
     return body->wavemaker < 0 && body->count > 0;
@@ -106,9 +98,9 @@ static void count_behind(search *s, const sb_model_body *front, const sb_sample_
             s->nearest[b] = depth;
             s->place[b] = model->wall_position[i];
         }
-        s->found[FACES * b + (size_t)face_of(model->wall_normal[i])]++;
+        s->found[FACES * b + (size_t)sb_model_direction_of(model->wall_normal[i])]++;
         const size_t number = (size_t)(front - model->bodies) + 1;
-        if (s->seen[rear] != number) s->behind[FACES * b + (size_t)face_of(model->wall_normal[rear])]++;
+        if (s->seen[rear] != number) s->behind[FACES * b + (size_t)sb_model_direction_of(model->wall_normal[rear])]++;
         s->seen[rear] = number;
     }
 }
@@ -169,7 +161,7 @@ static void measure_bodies(search *s)
     for (size_t b = 0; b < model->body_count; b++) {
         const sb_model_body *body = &model->bodies[b];
         for (size_t i = body->begin; i < body->begin + body->count; i++) {
-            s->totals[FACES * b + (size_t)face_of(model->wall_normal[i])]++;
+            s->totals[FACES * b + (size_t)sb_model_direction_of(model->wall_normal[i])]++;
             s->min[b] = i == body->begin ? model->wall_position[i] : sb_min(s->min[b], model->wall_position[i]);
             s->max[b] = i == body->begin ? model->wall_position[i] : sb_max(s->max[b], model->wall_position[i]);
         }

@@ -54,13 +54,6 @@ typedef struct search {
     size_t *totals; /* FACES per body */
 } search;
 
-static int face_of(sb_vec3 normal)
-{
-    const double size[3] = {fabs(normal.x), fabs(normal.y), fabs(normal.z)};
-    const int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
-    return 2 * axis + ((axis == 0 ? normal.x : axis == 1 ? normal.y : normal.z) > 0);
-}
-
 /* Moves a coordinate across a periodic side into the domain. Returns false if it is outside of a domain that does not
    repeat. */
 static bool into_domain(double *x, double min, double max, bool repeats)
@@ -144,7 +137,7 @@ static void search_body(search *s, size_t index)
 #pragma omp parallel for schedule(dynamic, 256)
     for (size_t i = 0; i < body->count; i++) s->hits[i] = cast(s, index, body->begin + i);
     for (size_t i = 0; i < body->count; i++) {
-        const int face = face_of(s->model->wall_normal[body->begin + i]);
+        const int face = sb_model_direction_of(s->model->wall_normal[body->begin + i]);
         s->totals[FACES * index + (size_t)face]++;
         if (!isfinite(s->hits[i].width)) continue;
         pair *p = &s->pairs[index * s->model->body_count + s->hits[i].body];
@@ -174,8 +167,8 @@ static sb_status warn(const search *s, size_t a, size_t b, const pair *p, sb_err
         snprintf(between, sizeof between, "bodies \"%s\" and \"%s\" face each other", bodies[a].name, bodies[b].name);
     return sb_model_warn(
         s->model, error,
-        "%s across a gap of about %.2g m near (%.4g, %.4g, %.4g), and walls resolve gaps of %.3g m (%g "
-        "spacings) or more: %s unreliable; expected a closed or a wider gap, or a resolution of %.2g m "
+        "%s across a gap of about %.2g m near (%.4g, %.4g, %.4g), and walls resolve gaps of %.3g m (%g times "
+        "the spacing) or more: %s unreliable; expected a closed or a wider gap, or a resolution of %.2g m "
         "or less",
         between, p->width, p->place.x, p->place.y, p->place.z, s->limit, s->limit / s->model->spacing,
         a == b ? "the force on it is" : "the forces on both are", p->width * s->model->spacing / s->limit);

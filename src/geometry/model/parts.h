@@ -25,10 +25,19 @@ void sb_model_space_free(sb_model_space *space);
    infinite strip, m. */
 double sb_model_strip_width(const sb_model *model);
 
+/* The direction along an axis that a normal is nearest to: twice the axis, 1 more if it is that of growing coordinates.
+ */
+static inline int sb_model_direction_of(sb_vec3 normal)
+{
+    const double size[3] = {fabs(normal.x), fabs(normal.y), fabs(normal.z)};
+    const int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
+    return 2 * axis + (sb_component(normal, axis) > 0);
+}
+
 /* Warns if solids at one periodic side do not continue at the opposite side. */
 sb_status sb_model_check_sides(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
-/* facets.c: the facets of bodies that water can meet, if walls reflect water. The result is the same for any number of
+/* facet*.c: the facets of bodies that water can meet, if walls reflect water. The result is the same for any number of
    threads. */
 sb_status sb_model_facets(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
@@ -84,7 +93,9 @@ sb_status sb_model_sea_sides(const sb_scene *scene, const sb_model_space *space,
 /* Adds a warning for each open side at which water stands. */
 sb_status sb_model_warn_open(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
-/* Adds a warning for a body that no water can reach, with the scale that would bring its file into the domain.
+/* Adds one warning for all bodies outside of the domain that no scale of their files would bring into it. */
+sb_status sb_model_warn_elsewhere(const sb_scene *scene, sb_model *model, sb_error *error);
+/* Adds a warning for another body that no water can reach, with the scale that would bring its file into the domain.
    solid: NULL in 2D if the plane y = 0 does not cut the body. */
 sb_status sb_model_warn_place(const sb_scene *scene, const sb_model_body *body, const sb_solid *solid, sb_model *model,
                               sb_error *error);

@@ -68,16 +68,59 @@ static void advise(const sb_scene *scene, const sb_model *model, const sb_model_
     }
 }
 
-sb_status sb_model_warn_place(const sb_scene *scene, const sb_model_body *body, const sb_solid *solid, sb_model *model,
-                              sb_error *error)
+static extent extent_of(const sb_mesh *mesh)
 {
-    const sb_mesh *mesh = &body->mesh;
     extent of = {mesh->vertices[0], mesh->vertices[0]};
-    char advice[160] = "";
     for (size_t i = 1; i < mesh->vertex_count; ++i) {
         of.min = sb_min(of.min, mesh->vertices[i]);
         of.max = sb_max(of.max, mesh->vertices[i]);
     }
+    return of;
+}
+
+/* Whether a body lies outside of the domain, where forces on it were expected or no part of it is left, and no scale of
+   its file would change that. */
+static bool is_elsewhere(const sb_scene *scene, const sb_model *model, const sb_model_body *body, extent of)
+{
+    char advice[160] = "";
+    if (!is_apart(model, of) || (body->count > 0 && !body->report)) return false;
+    advise(scene, model, body, of, advice, sizeof advice);
+    return !advice[0];
+}
+
+sb_status sb_model_warn_elsewhere(const sb_scene *scene, sb_model *model, sb_error *error)
+{
+    char first[SB_NAME_MAX + 300] = "", others[700] = "";
+    size_t count = 0, named = 0, length = 0;
+    for (size_t i = 0; i < model->body_count; ++i) {
+        const sb_model_body *body = model->bodies + i;
+        if (body->mesh.triangle_count == 0) continue;
+        const extent of = extent_of(&body->mesh);
+        if (!is_elsewhere(scene, model, body, of)) continue;
+        const sb_vec3 size = size_of(of);
+        if (count++ == 0) {
+            snprintf(first, sizeof first,
+                     "body \"%s\" has no surface that water could reach: it is outside of the domain; it is "
+                     "%g x %g x %g m, from (%g, %g, %g) to (%g, %g, %g)",
+                     body->name, size.x, size.y, size.z, of.min.x, of.min.y, of.min.z, of.max.x, of.max.y, of.max.z);
+        } else if (length + sizeof body->name + 32 < sizeof others) {
+            length += (size_t)snprintf(others + length, sizeof others - length, "%s \"%s\"",
+                                       length == 0 ? "; likewise" : ",", body->name);
+            named++;
+        }
+    }
+    if (count == 0) return SB_OK;
+    if (count > named + 1) snprintf(others + length, sizeof others - length, " and %zu more", count - named - 1);
+    return sb_model_warn(model, error, "%s%s", first, others);
+}
+
+sb_status sb_model_warn_place(const sb_scene *scene, const sb_model_body *body, const sb_solid *solid, sb_model *model,
+                              sb_error *error)
+{
+    const sb_mesh *mesh = &body->mesh;
+    const extent of = extent_of(mesh);
+    char advice[160] = "";
+    if (is_elsewhere(scene, model, body, of)) return SB_OK;
     const sb_vec3 size = size_of(of);
     const bool apart = is_apart(model, of), closed = body->role == SB_ROLE_SOLID && !mesh->open_surface;
     const bool large = closed && largest(model, size) > MANY * largest(model, sb_sub(model->max, model->min));

@@ -48,7 +48,7 @@ static sb_status check_speed(const sb_scene *scene, const sb_wavemaker_use *make
     if (!(waves > 0) || way->fastest <= FAST * waves) return SB_OK;
     return sb_model_warn(
         model, error,
-        "wavemaker \"%s\" moves at %.3g m/s at t = %.3g s, %.2g times as fast as long waves in its water: are "
+        "wave maker \"%s\" moves at %.3g m/s at t = %.3g s, %.2g times as fast as long waves in its water: are "
         "its units m and s?",
         maker->name, way->fastest, way->when, way->fastest / waves);
 }

@@ -55,29 +55,37 @@ static const float SB_SECTORS_LEAST = 1.5f;
 typedef struct sb_near {
     size_t count, edge_count;
     bool simple;  /* no facet hides water or another facet */
-    bool oblique; /* some path may be reflected at two facets at other than right angles */
+    bool oblique; /* two facets meet at other than right angles and are not opposite: one may hide water from the other
+                   */
     bool meeting; /* some path may be reflected at two facets */
-    bool skew;    /* at other than right angles */
+    bool skew;    /* the same, at other than right angles; opposite facets included */
     bool moves;   /* a facet moves */
     bool full;    /* more than SB_NEAR_MAX facets or SB_NEAR_EDGES_MAX edges */
     sb_near_facet facet[SB_NEAR_MAX];
     sb_near_edge edges[SB_NEAR_EDGES_MAX];
     bool meets[SB_NEAR_MAX][SB_NEAR_MAX]; /* a path may be reflected at both, one after the other */
     /* pi over the angle between facets that meet, on the water's side; 2: a right angle, INFINITY: they face each
-       other; 0: they do not meet */
+       other and are parallel; 0: they do not meet */
     float sectors[SB_NEAR_MAX][SB_NEAR_MAX];
     bool blunt[SB_NEAR_MAX]; /* it meets another one at more than a right angle and less than 120 degrees */
 } sb_near;
 
+/* Makes walls.mirrors of the model's facets, with their images beyond periodic sides. SB_FAILED without memory; also
+   then the caller frees it with sb_mirrors_destroy. */
 sb_status sb_mirrors_create(sb_sim *sim, sb_error *error);
 void sb_mirrors_destroy(sb_sim *sim);
 size_t sb_mirrors_bytes(const sb_sim *sim);
 
-/* Finds the facets within a support radius of a group. low, high: the box of its particles, from the corner. */
+/* Distance of a place from a mirror that has not moved, and of a place from a segment; places and distances in quanta.
+ */
+double sb_mirrors_distance(const sb_mirrors *m, const sb_mirror *mirror, sb_vec3 at);
+double sb_mirrors_from_segment(sb_vec3 a, sb_vec3 b, sb_vec3 at);
+
+/* near.c: finds the facets within a support radius of a group. low, high: the box of its particles, from the corner. */
 void sb_mirrors_near(const sb_sim *sim, const sb_group *group, sb_f4 low, sb_f4 high, sb_near *near);
 
-/* *count: the number of blocks in which there are more facets or edges near a single place than sb_near holds; moving
-   bodies as they are placed. *place: the first such place, m. Returns 0, or -1 without memory. */
+/* near.c: *count: the number of blocks in which there are more facets or edges near a single place than sb_near holds;
+   moving bodies as they are placed. *place: the first such place, m. Returns 0, or -1 without memory. */
 int sb_mirrors_crowded(const sb_sim *sim, size_t *count, sb_vec3 *place);
 
 /* The entries of the block that a record is in, [returned, *end) of walls.mirrors.entry: facets of static bodies. */

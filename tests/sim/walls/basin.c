@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "check.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { KEYS_MAX = 16 };
@@ -77,4 +78,14 @@ void basin_free(basin *b)
     sb_sim_destroy(b->sim);
     sb_model_free(&b->model);
     sb_scene_free(&b->scene);
+}
+
+sb_f4 basin_way(const sb_sim *sim, sb_vec3 p, uint32_t id, double size)
+{
+    const bool flat = sim->constant.dimension == 2;
+    sb_f4 v = {(float)nearbyint(size * sin(3 * p.x + p.z)), flat ? 0 : (float)nearbyint(size * sin(5 * p.y + p.x)),
+               (float)nearbyint(size * cos(2 * p.x - p.y)), 0};
+    for (int axis = 0; axis < 3; axis++)
+        if (!flat || axis != 1) v[axis] += (float)nearbyint(size * (sb_random((uint64_t)axis + 5, id) - 0.5));
+    return v;
 }

@@ -21,6 +21,9 @@ void basin_scatter(basin *b, uint64_t seed, sb_vec3 min, sb_vec3 max, double spe
 /* One with walls that reflect water. density: the rule of numerics.density. */
 void basin_fill(basin *b, int dimensions, const char *spacing, const char *max, const char *water, const char *bodies,
                 const char *density);
+/* A displacement of a particle at a place (m), in whole quanta: a smooth field of `size` quanta plus noise by its id.
+ */
+sb_f4 basin_way(const sb_sim *sim, sb_vec3 place, uint32_t id, double size);
 void basin_settle(basin *b);
 void basin_free(basin *b);
 

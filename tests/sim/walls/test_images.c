@@ -88,17 +88,6 @@ static void the_operator_is_symmetric(void **state)
     }
 }
 
-/* A displacement in whole quanta: a smooth field plus noise. */
-static sb_f4 way_of(const sb_sim *sim, sb_vec3 p, uint32_t id, double size)
-{
-    const bool flat = sim->constant.dimension == 2;
-    sb_f4 v = {(float)nearbyint(size * sin(3 * p.x + p.z)), flat ? 0 : (float)nearbyint(size * sin(5 * p.y + p.x)),
-               (float)nearbyint(size * cos(2 * p.x - p.y)), 0};
-    for (int axis = 0; axis < 3; axis++)
-        if (!flat || axis != 1) v[axis] += (float)nearbyint(size * (sb_random((uint64_t)axis + 5, id) - 0.5));
-    return v;
-}
-
 /* Density sums after all particles have moved by `share` of their ways, by id. */
 static void densities(basin *b, const sb_record *at, const sb_f4 *way, int share, double *out)
 {
@@ -133,7 +122,7 @@ static void the_divergence_is_the_rate_of_the_density(void **state)
         for (size_t i = 0; i < n; i++) {
             const uint32_t id = sim->state.id[i];
             at[id] = sim->state.position[i];
-            sim->work.predicted[i] = way[id] = way_of(sim, sb_space_position(&sim->space, at[id]), id, size);
+            sim->work.predicted[i] = way[id] = basin_way(sim, sb_space_position(&sim->space, at[id]), id, size);
         }
         sim->passes->diverge(sim, sim->work.predicted, (float)sim->space.quantum, divergence);
         for (size_t i = 0; i < n; i++) rate[sim->state.id[i]] = (double)divergence[i];

@@ -28,17 +28,6 @@ static void spread(basin *b, double depth, sb_vec3 from, sb_vec3 to)
     m->fluid_count = n;
 }
 
-/* A displacement in whole quanta: a smooth field plus noise. */
-static sb_f4 way_of(const sb_sim *sim, sb_vec3 p, uint32_t id, double size)
-{
-    const bool flat = sim->constant.dimension == 2;
-    sb_f4 v = {(float)nearbyint(size * sin(3 * p.x + p.z)), flat ? 0 : (float)nearbyint(size * sin(5 * p.y + p.x)),
-               (float)nearbyint(size * cos(2 * p.x - p.y)), 0};
-    for (int axis = 0; axis < 3; axis++)
-        if (!flat || axis != 1) v[axis] += (float)nearbyint(size * (sb_random((uint64_t)axis + 5, id) - 0.5));
-    return v;
-}
-
 typedef struct motion {
     double time, dt;
     sb_record *at; /* by id */
@@ -76,7 +65,7 @@ static void compare(basin *b, double time, double dt, double most)
     for (size_t i = 0; i < n; i++) {
         const uint32_t id = sim->state.id[i];
         m.at[id] = sim->state.position[i];
-        sim->work.predicted[i] = m.way[id] = way_of(sim, sb_space_position(&sim->space, m.at[id]), id, size);
+        sim->work.predicted[i] = m.way[id] = basin_way(sim, sb_space_position(&sim->space, m.at[id]), id, size);
     }
     sim->passes->diverge(sim, sim->work.predicted, (float)sim->space.quantum, divergence);
     for (size_t i = 0; i < n; i++) {

@@ -15,7 +15,7 @@ static const char help[] =
     "  memory         bytes per particle, array by array; cost of dry land\n"
     "  pictures       pictures of 1280 x 720 px, PNG file included\n"
     "  large          the plant at 1 m (18 million particles): set-up, 20 steps, peak memory\n"
-    "  runs           whole runs: the plant at 4 m by both presets, the column at 1 cm by two settings\n"
+    "  runs           whole runs: the plant at 4 m by two presets, the column at 1 cm by two settings\n"
     "  island         a whole run of the conical island of the validation\n"
     "  tradeoff       run time against error: runs tools/tradeoff with its options\n"
     "  all            kernels, scenes, scaling, memory and pictures (the default)\n\n"

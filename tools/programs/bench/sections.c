@@ -11,8 +11,9 @@ const sb_bench_section sb_bench_sections[] = {
     {"memory", "bytes per particle, array by array, and the cost of dry land", true, sb_bench_memory},
     {"pictures", "pictures of 1280 x 720 px with 200 thousand triangles, PNG file included", true, sb_bench_pictures},
     {"large", "the plant at 1 m: set-up, 20 steps, peak memory (minutes, and about 10 GB)", false, sb_bench_large},
-    {"runs", "whole runs of the plant at 4 m by both presets, and of the column at 1 cm (tens of minutes)", false,
-     sb_bench_runs},
+    {"runs",
+     "whole runs of the plant at 4 m by the presets default and paper, and of the column at 1 cm (tens of minutes)",
+     false, sb_bench_runs},
     {"island", "a whole run of the conical island of the validation (an hour or more)", false, sb_bench_island},
     {.name = NULL},
 };

@@ -6,7 +6,7 @@
 #include <string.h>
 
 const char sb_monitor_help[] =
-    "Usage: shorebreak-monitor [--url URL] [--prefix NAME] [--run DIR | --token-file FILE]\n"
+    "usage: shorebreak-monitor [--url URL] [--prefix NAME] [--run DIR | --token-file FILE]\n"
     "                          [--once] [--duration S] [--plain]\n"
     "\n"
     "Shows a run while it computes: progress, stage times, convergence, forces on bodies, gauges, and the health of "
@@ -26,7 +26,7 @@ const char sb_monitor_help[] =
     "  --help          print this text\n"
     "  --version       print the version\n"
     "\n"
-    "NO_COLOR in the environment switches colours off. Exit code 0: done; 1: bad option, no provider, or no status "
+    "NO_COLOR in the environment switches colours off. Exit status 0: done; 1: bad option, no provider, or no status "
     "with --once.\n";
 
 static bool read_duration(const char *text, double *seconds)

@@ -34,7 +34,7 @@ SB_INLINE bool sb_facets_square(const sb_near *near, size_t a, size_t b)
     return fabsf(sb_sum3(near->facet[a].plane * near->facet[b].plane)) < 1e-3f;
 }
 
-/* Whether two facets meet at another than a right angle, and do not face each other. */
+/* Whether two facets meet at another than a right angle, and are not parallel. */
 SB_INLINE bool sb_facets_crooked(const sb_near *near, size_t a, size_t b)
 {
     const float sectors = near->sectors[a][b];
