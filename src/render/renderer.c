@@ -209,7 +209,7 @@ static double load_max(const sb_renderer *r)
 static void tint(sb_renderer *r, const sb_frame *frame, sb_scenery *scenery)
 {
     sb_face_loads_compute(&r->loads, frame, load_max(r));
-    sb_meshes_recolor(r->meshes, r->loads.colors[0], 3 * r->loads.triangle_count);
+    sb_meshes_recolor(r->meshes, r->loads.colors[0], 3 * r->loads.faces.all_count);
     scenery->drawn = false;
 }
 
