@@ -91,6 +91,10 @@ static void loads_of_faces_sum_to_the_force(void **state)
                particles = run("{walls: particles, density: summed, stress_correction: 0}", 1e-5, "true", 2, 0.6);
     print_message("%zu rows, %zu faces with a load, at most %.0f N\n", s.rows, s.faces, s.greatest);
     assert_true(s.rows >= 60 && s.faces >= 8 && s.greatest > 300);
+    const sums explicit = run("{preset: wen}", 1e-5, "true", 2, 0.4);
+    print_message("explicit: %zu rows, %zu faces with a load, at most %.0f N\n", explicit.rows, explicit.faces,
+                  explicit.greatest);
+    assert_true(explicit.rows >= 60 && explicit.faces >= 4 && explicit.greatest > 100);
     assert_true(particles.rows >= 60 && particles.faces >= 8 && particles.greatest > 300);
 }
 
