@@ -41,7 +41,7 @@ void sb_splat_free(sb_splat *splat)
 /* The pixels of an element: of its disc, or also of its drop. */
 static sb_splat_box box_of(const sb_splat_lens *lens, const sb_surfel *s)
 {
-    return s->share < 1 ? sb_splat_box_of(lens, s, s->radius) : sb_splat_outline_of(lens, s).box;
+    return s->share < 1 ? sb_splat_box_of(lens, s, s->radius) : sb_splat_outline_of(lens, s, 1).box;
 }
 
 /* Sorts the elements by the bands that they touch, each band in the order of the list. */

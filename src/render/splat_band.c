@@ -9,6 +9,7 @@ enum { LANES = SB_BAND_LANES };
 static const float drop_spacings = 0.3f; /* radius of a single drop */
 /* Weights above this define the nearest depths. */
 static const float front_weight = 0.16f, front_share = 0.3f; /* of discs; of their element in a surface */
+static const float front_part = 0.6001f; /* of the square of a disc's radius: where its weight is above front_weight */
 /* The sum of weights at the edge of a surface: no water and only water. An unbroken layer of discs has about 2.7. */
 static const float cover_none = 0.22f, cover_all = 0.62f;
 static const float drop_opacity = 1.4f; /* optical thickness at the centre of a drop */
@@ -103,9 +104,9 @@ struct rows {
     int low, high;
 };
 
-SB_INLINE struct rows rows_of(const sb_band *band, const sb_splat_lens *lens, const sb_surfel *s)
+SB_INLINE struct rows rows_of(const sb_band *band, const sb_splat_lens *lens, const sb_surfel *s, float part)
 {
-    const sb_splat_outline disc = sb_splat_outline_of(lens, s);
+    const sb_splat_outline disc = sb_splat_outline_of(lens, s, part);
     const int top = band->first_row + band->rows;
     return (struct rows){disc, disc.box.y0 > band->first_row ? disc.box.y0 : band->first_row,
                          disc.box.y1 < top ? disc.box.y1 : top};
@@ -115,7 +116,7 @@ SB_INLINE struct rows rows_of(const sb_band *band, const sb_splat_lens *lens, co
 SB_INLINE void find_front(sb_band *band, const sb_splat_lens *lens, const sb_surfel *s)
 {
     if (s->share < front_share) return;
-    const struct rows r = rows_of(band, lens, s);
+    const struct rows r = rows_of(band, lens, s, front_part);
     int first, last;
     for (int y = r.low; y < r.high; y++) {
         if (!row_of(lens, &r.disc, y, &first, &last)) continue;
@@ -134,7 +135,7 @@ SB_INLINE void find_front(sb_band *band, const sb_splat_lens *lens, const sb_sur
 SB_INLINE void find_second(sb_band *band, const sb_splat_lens *lens, const sb_surfel *s)
 {
     if (s->share < front_share) return;
-    const struct rows r = rows_of(band, lens, s);
+    const struct rows r = rows_of(band, lens, s, front_part);
     const float room = room_of(lens, s);
     int first, last;
     for (int y = r.low; y < r.high; y++) {
@@ -157,7 +158,7 @@ SB_INLINE void find_second(sb_band *band, const sb_splat_lens *lens, const sb_su
 /* Adds a disc to the sums of the first surface, or to those of the second one. */
 SB_INLINE void add_disc(sb_band *band, const sb_splat_lens *lens, const sb_surfel *s, bool second)
 {
-    const struct rows r = rows_of(band, lens, s);
+    const struct rows r = rows_of(band, lens, s, 1);
     const float narrow = 1 / room_of(lens, s), share = s->share;
     int first, last;
     for (int y = r.low; y < r.high; y++) {

@@ -50,7 +50,8 @@ static inline sb_splat_box sb_splat_box_of(const sb_splat_lens *lens, const sb_s
 
 /* Where a disc is seen. A ray is d = c / c_z + w with w = (u, v, 0), c the disc's centre. It meets the disc's plane at
    a distance of |w p - c (n . w)| / |n . d| from c, p = n . c. In a row, v is given, and u lies between the roots of a
-   quadratic equation; in the equations below the terms with the greatest powers of c have cancelled out. */
+   quadratic equation; in the equations below the terms with the greatest powers of c have cancelled out, for |n| = 1.
+ */
 typedef struct sb_splat_outline {
     sb_splat_box box;          /* around the disc */
     bool bounded;              /* false: the disc may be anywhere in the box */
@@ -79,9 +80,10 @@ SB_INLINE void sb_splat_narrow_rows(const sb_splat_lens *lens, sb_splat_outline 
     if (at + high + 1 + SB_SPLAT_MARGIN < (float)o->box.y1) o->box.y1 = (int)(at + high + 1 + SB_SPLAT_MARGIN);
 }
 
-SB_INLINE sb_splat_outline sb_splat_outline_of(const sb_splat_lens *lens, const sb_surfel *s)
+/* part: of the square of the disc's radius. */
+SB_INLINE sb_splat_outline sb_splat_outline_of(const sb_splat_lens *lens, const sb_surfel *s, float part)
 {
-    const float cx = s->place[0], cy = s->place[1], cz = s->place[2], r2 = s->radius * s->radius;
+    const float cx = s->place[0], cy = s->place[1], cz = s->place[2], r2 = part * s->radius * s->radius;
     const float nx = s->normal[0], ny = s->normal[1], p = nx * cx + ny * cy + s->normal[2] * cz;
     const float u[3] = {p - nx * cx, -nx * cy, -nx * cz}, v[3] = {-ny * cx, p - ny * cy, -ny * cz};
     const float length2 = u[0] * u[0] + u[1] * u[1] + u[2] * u[2], a = length2 - r2 * nx * nx;
