@@ -7,7 +7,7 @@ sb_root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 # Packages for building, testing and running; then those that only plots and films need.
 sb_packages=(build-essential cmake ninja-build pkg-config git libosmesa6-dev liblcm-dev liblcm-bin
              libglib2.0-dev libassimp-dev libmeshoptimizer-dev libgeotiff-dev libnetcdf-dev libproj-dev libcglm-dev
-             libpng-dev libyaml-dev libjansson-dev libmicrohttpd-dev
+             libpng-dev libdeflate-dev libyaml-dev libjansson-dev libmicrohttpd-dev
              libjs-dygraphs libncurses-dev libcmocka-dev tmux)
 sb_picture_packages=(gnuplot-nox ffmpeg)
 # Packages for runs over several processes or machines.

@@ -72,8 +72,8 @@ sb_status sb_cluster_act_pieces(run *r, const order *given, sb_error *error)
         return SB_OK;
     }
     if (!frame) return sb_fail_memory(error, "a frame");
-    sb_measure_fill_frame(r->measure, frame);
-    sb_status status = sb_make_folder(folder, r->directory, SB_PARTICLE_FOLDER, error);
+    sb_status status = sb_measure_fill_frame(r->measure, frame, error);
+    if (status == SB_OK) status = sb_make_folder(folder, r->directory, SB_PARTICLE_FOLDER, error);
     if (status == SB_OK) status = sb_pvtp_write_piece(folder, r->cluster.ranks->rank, frame, given->number, error);
     sb_frame_release(frame);
     return status;

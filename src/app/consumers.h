@@ -47,12 +47,13 @@ typedef struct sb_picture_set {
     bool cleared;           /* pictures beyond the count have been removed */
 } sb_picture_set;
 
-/* Pictures of the film and stills, of one camera, or of all: camera < 0. */
+/* Pictures of the film and stills. */
 typedef struct sb_pictures {
     const sb_scene *scene;
     const sb_model *model;
-    const char *directory; /* the folder that contains those of the pictures */
-    int camera;
+    const char *directory;     /* the folder that contains those of the pictures */
+    const bool *only;          /* by camera: whether it is drawn; not owned; NULL: all are */
+    bool beside_simulation;    /* the thread that draws takes a low priority */
     sb_camera_motion *motions; /* by camera, owned */
     sb_poses poses;            /* for the renderers */
     sb_insets insets;

@@ -146,7 +146,9 @@ static sb_status take(sb_options *options, unsigned bit, const char *value, sb_e
             return sb_fail(error, SB_BAD_INPUT, "--speed %.100s: expected a factor from 0 to 1e6", value);
         break;
     case SB_OPT_CAMERA:
-        options->camera = value;
+        if (options->camera_count == SB_CAMERA_OPTIONS_MAX)
+            return sb_fail(error, SB_BAD_INPUT, "--camera: more than %d of them", SB_CAMERA_OPTIONS_MAX);
+        options->cameras[options->camera_count++] = value;
         break;
     case SB_OPT_QUIET:
         options->quiet = true;

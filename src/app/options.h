@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-enum { SB_OVERRIDES_MAX = 256, SB_POSITIONALS_MAX = 64 };
+enum { SB_OVERRIDES_MAX = 256, SB_POSITIONALS_MAX = 64, SB_CAMERA_OPTIONS_MAX = 64 };
 
 typedef struct sb_options {
     const char *positional; /* scene, run directory or table, by command */
@@ -15,19 +15,20 @@ typedef struct sb_options {
     const char *positionals[SB_POSITIONALS_MAX]; /* with SB_OPT_SEVERAL; the first one is `positional` */
     const char *out;                             /* --out */
     const char *preset;                          /* --preset */
-    const char *camera;                          /* --camera */
-    const char *title;                           /* --title */
-    const char *url;                             /* --url */
-    const char *prefix;                          /* --prefix */
-    const char *format;                          /* --format */
-    const char *times;                           /* --times */
-    double cell;                                 /* --cell; spacings */
-    int smooth;                                  /* --smooth; rounds */
-    double speed;                                /* --speed; 1 if it is not given */
-    int live_port;                               /* --live; 0: not given */
-    char live_address[64];                       /* --live=ADDRESS:PORT; empty: loopback */
-    int threads;                                 /* --threads; 0: OMP_NUM_THREADS, or one per core */
-    double rank_deadline;                        /* --rank-deadline; s */
+    size_t camera_count;
+    const char *cameras[SB_CAMERA_OPTIONS_MAX]; /* --camera, each of them */
+    const char *title;                          /* --title */
+    const char *url;                            /* --url */
+    const char *prefix;                         /* --prefix */
+    const char *format;                         /* --format */
+    const char *times;                          /* --times */
+    double cell;                                /* --cell; spacings */
+    int smooth;                                 /* --smooth; rounds */
+    double speed;                               /* --speed; 1 if it is not given */
+    int live_port;                              /* --live; 0: not given */
+    char live_address[64];                      /* --live=ADDRESS:PORT; empty: loopback */
+    int threads;                                /* --threads; 0: OMP_NUM_THREADS, or one per core */
+    double rank_deadline;                       /* --rank-deadline; s */
     bool quiet, json, profile, resume, overwrite, other_build, film, mixed, help;
     size_t override_count;
     sb_override overrides[SB_OVERRIDES_MAX];

@@ -116,8 +116,8 @@ sb_status sb_picture_now(run *r, const sb_command *command, sb_error *error)
     sb_frame *frame = sb_cluster_snapshot(r);
     if (!frame) return sb_fail_memory(error, "a frame");
     frame->index = r->frames;
-    sb_measure_fill_frame(r->measure, frame);
-    status = sb_grid_picture_add(r->sim, r->scene, frame, error);
+    status = sb_measure_fill_frame(r->measure, frame, error);
+    if (status == SB_OK) status = sb_grid_picture_add(r->sim, r->scene, frame, error);
     if (status != SB_OK) {
         sb_frame_release(frame);
         return status;

@@ -10,11 +10,11 @@
 
 static bool wanted(const sb_pictures *pictures, size_t camera)
 {
-    return pictures->camera < 0 || (size_t)pictures->camera == camera;
+    return !pictures->only || pictures->only[camera];
 }
 
-/* Niceness of this thread and of those that its graphics library starts. The simulation's threads wait for each other
-   at every barrier, so they take precedence. */
+/* Niceness of this thread beside a simulation, and of those that its graphics library starts. The simulation's threads
+   wait for each other at every barrier, so they take precedence. */
 enum { NICENESS = 10 };
 
 sb_status sb_pictures_begin(sb_pictures *pictures, const sb_scene *scene, const sb_model *model, const char *directory,
@@ -23,7 +23,6 @@ sb_status sb_pictures_begin(sb_pictures *pictures, const sb_scene *scene, const 
     *pictures = (sb_pictures){.scene = scene,
                               .model = model,
                               .directory = directory,
-                              .camera = -1,
                               .film = {.folder = "frames"},
                               .stills = {.folder = "stills"}};
     sb_status status = sb_insets_begin(&pictures->insets, scene, model, error);
@@ -67,7 +66,8 @@ static sb_status make_renderer(sb_pictures *pictures, sb_error *error)
 static sb_status open_pictures(void *state, sb_error *error)
 {
     sb_pictures *pictures = state;
-    setpriority(PRIO_PROCESS, 0, NICENESS); /* if refused, the niceness stays as it is */
+    /* If refused, the niceness stays as it is. */
+    if (pictures->beside_simulation) setpriority(PRIO_PROCESS, 0, NICENESS);
     sb_status status = pictures->film.count > 0 ? clear_later(pictures, &pictures->film, error) : SB_OK;
     if (status == SB_OK && pictures->stills.count > 0) status = clear_later(pictures, &pictures->stills, error);
     /* Stills have renderers of their own. */

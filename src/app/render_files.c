@@ -16,7 +16,7 @@ typedef struct job {
     sb_pictures *pictures;
     bool film, quiet;
     sb_render_warning warn;
-    bool *told; /* of missing files of the grid */
+    bool *told, *told_loads; /* of missing files of the grid; of missing loads */
 } job;
 
 /* A particle file has the state at the end of the step that passed a multiple of the interval: its picture shows the
@@ -40,12 +40,25 @@ static sb_status add_grid(const job *j, size_t file, sb_frame *frame, sb_error *
     return SB_OK;
 }
 
+/* The first interval of a run has no loads yet. */
+static void warn_of_loads(const job *j, const sb_frame *frame)
+{
+    const sb_scene *scene = j->pictures->scene;
+    if (!scene->render.loads || frame->face_count > 0 || *j->told_loads) return;
+    if (frame->status.time < scene->measure.interval) return;
+    j->warn("render.loads: the particle files have no loads of faces, because the run was made without it; the colours "
+            "show the pressure next to the walls instead, which is too low in impacts. Run with render.loads for the "
+            "forces themselves");
+    *j->told_loads = true;
+}
+
 static sb_status read_frame(const job *j, size_t file, sb_frame **frame, sb_error *error)
 {
     char path[SB_PATH_MAX];
     sb_status status = sb_path_join(path, j->run, j->list->entries[file].file, error);
     if (status == SB_OK) status = j->format->read(path, frame, error);
     if (status != SB_OK) return status;
+    warn_of_loads(j, *frame);
     if (j->pictures->scene->foam.enabled) status = sb_foam_files_read(j->run, file + 1, *frame, error);
     if (status == SB_OK) status = add_grid(j, file, *frame, error);
     if (status != SB_OK) sb_frame_release(*frame);
@@ -146,8 +159,9 @@ sb_status sb_render_files(const char *run, const sb_particle_format *format, con
                           sb_pictures *pictures, bool quiet, sb_render_warning warn, sb_error *error)
 {
     const sb_render_settings *render = &pictures->scene->render;
-    bool told = false;
-    const job j = {run, format, list, pictures, render->interval > 0 || render->still_count == 0, quiet, warn, &told};
+    bool told = false, told_loads = false;
+    const job j = {run,   format, list,  pictures,   render->interval > 0 || render->still_count == 0,
+                   quiet, warn,   &told, &told_loads};
     sb_consumer_work work = sb_pictures_work(pictures);
     sb_status status = work.open(pictures, error);
     for (size_t i = 0; i < list->count && status == SB_OK; i++) {

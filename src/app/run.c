@@ -27,7 +27,10 @@ static sb_frame *complete_frame(const run *r, sb_frame *frame, sb_error *error)
         return NULL;
     }
     frame->index = r->frames;
-    sb_measure_fill_frame(r->measure, frame);
+    if (sb_measure_fill_frame(r->measure, frame, error) != SB_OK) {
+        sb_frame_release(frame);
+        return NULL;
+    }
     frame->status.wall_seconds = sb_run_wall(r);
     frame->status.eta_seconds = sb_progress_eta(&r->progress);
     return frame;

@@ -92,7 +92,7 @@ typedef struct kind {
 typedef struct finder {
     const char *directory;
     const sb_scene *scene; /* may be NULL */
-    int camera;            /* the only camera that is drawn; < 0: all */
+    const bool *only;      /* by camera of the scene: whether it is drawn; NULL: all are */
     char *earlier;         /* the earlier run's scene.yaml from its cameras on; NULL: none */
     sb_run_files *files;
     sb_error *error;
@@ -118,7 +118,7 @@ static bool has_camera(const finder *f, const char *name)
 {
     const sb_scene *scene = f->scene;
     for (size_t c = 0; scene && c < scene->render.camera_count; c++)
-        if ((f->camera < 0 || (size_t)f->camera == c) && strcmp(scene->render.cameras[c].name, name) == 0) return true;
+        if ((!f->only || f->only[c]) && strcmp(scene->render.cameras[c].name, name) == 0) return true;
     return false;
 }
 
@@ -347,7 +347,7 @@ static sb_status look_at_folder(const finder *f, place in)
 
 sb_status sb_run_files_find(const char *directory, const sb_scene *scene, sb_run_files *files, sb_error *error)
 {
-    finder f = {.directory = directory, .scene = scene, .camera = -1, .files = files, .error = error};
+    finder f = {.directory = directory, .scene = scene, .files = files, .error = error};
     char *text;
     *files = (sb_run_files){0};
     sb_status status = read_earlier(&f, &text);
@@ -357,17 +357,17 @@ sb_status sb_run_files_find(const char *directory, const sb_scene *scene, sb_run
     return status;
 }
 
-sb_status sb_run_files_find_pictures(const char *directory, const sb_scene *scene, int camera, sb_run_files *files,
-                                     sb_error *error)
+sb_status sb_run_files_find_pictures(const char *directory, const sb_scene *scene, const bool *only,
+                                     sb_run_files *files, sb_error *error)
 {
-    finder f = {.directory = directory, .scene = scene, .camera = camera, .files = files, .error = error};
+    finder f = {.directory = directory, .scene = scene, .only = only, .files = files, .error = error};
     char *text, film[128];
     *files = (sb_run_files){0};
     sb_status status = read_earlier(&f, &text);
     if (status == SB_OK) status = look_at_folder(&f, CAMERA);
     if (status == SB_OK && scene->render.still_count > 0) status = look_at_folder(&f, STILLS);
     for (size_t c = 0; status == SB_OK && c < scene->render.camera_count; c++) {
-        if (camera >= 0 && (size_t)camera != c) continue;
+        if (only && !only[c]) continue;
         snprintf(film, sizeof film, "%.100s.mp4", scene->render.cameras[c].name);
         status = look_at(&f, TOP, NULL, directory, film);
     }

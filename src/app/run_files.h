@@ -38,9 +38,9 @@ typedef struct sb_run_files {
    NULL: the files are only read. */
 sb_status sb_run_files_find(const char *directory, const sb_scene *scene, sb_run_files *files, sb_error *error);
 
-/* Lists only the pictures and films of the scene's cameras. camera: of this camera; < 0: of all cameras. */
-sb_status sb_run_files_find_pictures(const char *directory, const sb_scene *scene, int camera, sb_run_files *files,
-                                     sb_error *error);
+/* Lists only the pictures and films of the scene's cameras. only: by camera, whether to list its; NULL: of all. */
+sb_status sb_run_files_find_pictures(const char *directory, const sb_scene *scene, const bool *only,
+                                     sb_run_files *files, sb_error *error);
 
 /* Removes a run's files, and folders that are empty afterwards. */
 sb_status sb_run_files_remove(const char *directory, const sb_run_files *files, sb_error *error);

@@ -112,6 +112,7 @@ static sb_status make_simulation(run *r, bool resume, sb_error *error)
 {
     r->picture_times.render = &r->scene->render;
     sb_status status = sb_pictures_begin(&r->pictures, r->scene, &r->model, r->directory, error);
+    r->pictures.beside_simulation = true;
     if (status == SB_OK) status = sb_cluster_create(r, resume, error);
     return status == SB_OK ? sb_run_check_folders(r, error) : status;
 }

@@ -23,6 +23,7 @@ static void destroy(sb_frame *frame)
     sb_free(frame->pressure);
     sb_free(frame->id);
     sb_free(frame->density_error);
+    sb_free(frame->face_pressure);
     sb_free(frame->bodies);
     sb_free(frame);
 }
@@ -69,6 +70,13 @@ bool sb_frame_add_density_error(sb_frame *frame)
 {
     frame->density_error = sb_alloc_untouched(frame->count, sizeof *frame->density_error);
     return frame->density_error != NULL;
+}
+
+bool sb_frame_add_faces(sb_frame *frame, size_t count)
+{
+    frame->face_pressure = sb_alloc_untouched(count, sizeof *frame->face_pressure);
+    frame->face_count = frame->face_pressure ? count : 0;
+    return frame->face_pressure != NULL;
 }
 
 /* A copy of an array with room for more. NULL if memory runs out. */

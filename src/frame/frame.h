@@ -47,6 +47,8 @@ typedef struct sb_frame {
     sb_frame_foam foam;   /* empty unless the scene has foam */
     size_t body_count;
     sb_frame_body *bodies;
+    size_t face_count;    /* faces of bodies, numbered as by sb_faces_make; 0: their loads are not known */
+    float *face_pressure; /* Pa, mean over the face and over the last finished interval */
     _Atomic int references;
 } sb_frame;
 
@@ -67,6 +69,9 @@ int sb_frame_add_foam(sb_frame *frame, size_t count);
 /* Adds the array density_error to a frame that is not published yet, without initialising it. False if memory runs
    out. */
 bool sb_frame_add_density_error(sb_frame *frame);
+/* Allocates the array face_pressure of a frame that is not published yet, without initialising it. False if memory runs
+   out: the frame then has no faces. */
+bool sb_frame_add_faces(sb_frame *frame, size_t count);
 /* Makes room for more particles at the end, which the caller fills but for the density error, which is 0, in a frame
    that is not published yet. Returns 0, or -1 if memory runs out: the frame is then unchanged. */
 int sb_frame_extend(sb_frame *frame, size_t more);

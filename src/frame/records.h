@@ -16,6 +16,14 @@ typedef struct sb_force_record {
     sb_vec3 force, moment, pressure, friction; /* force = pressure + friction */
 } sb_force_record;
 
+/* The mean force of the water's pressure on a face of a body over the last interval. */
+typedef struct sb_face_load {
+    size_t body;    /* index into the model's bodies */
+    sb_vec3 normal; /* unit, towards the water */
+    double area;    /* m^2, with the dry part */
+    sb_vec3 force;  /* N */
+} sb_face_load;
+
 /* The free surface at that instant; NaN when dry. */
 typedef struct sb_gauge_record {
     size_t gauge;

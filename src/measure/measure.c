@@ -306,6 +306,7 @@ sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, sb_sim
     if (status == SB_OK) status = prepare_fields(made, &view, error);
     if (status == SB_OK) status = sb_reflections_create(made, error);
     if (status == SB_OK) status = sb_records_create(made, error);
+    if (status == SB_OK && scene->render.loads) status = sb_loads_create(scene, model, &made->loads, error);
     if (status == SB_OK) status = sb_wall_probes_start(made, sim, error);
     if (status == SB_OK) status = record_instants(made, &view, made->time, -1, error);
     if (status == SB_OK) status = record_waters(made, &view, made->time, made->next - 1, error);
@@ -344,6 +345,7 @@ void sb_measure_destroy(sb_measure *measure)
     sb_reflections_destroy(measure);
     sb_records_destroy(measure);
     sb_map_destroy(measure->map);
+    sb_loads_destroy(measure->loads);
     sb_cloud_free(&measure->cloud);
     sb_free(measure);
 }
@@ -356,6 +358,7 @@ static sb_status record_boundary(sb_measure *measure, const sb_sim *sim, double 
     fraction = fraction < 0 ? 0 : fraction > 1 ? 1 : fraction;
     sb_measure_view view = view_of(measure, sim, (1 - fraction) * taken);
     sb_status status = record_forces(measure, sim, time, fraction, error);
+    if (measure->loads) sb_loads_boundary(measure->loads, fraction, measure->interval);
     if (status == SB_OK) status = record_flows(measure, time, fraction, error);
     if (status == SB_OK) status = record_instants(measure, &view, time, fraction, error);
     if (status == SB_OK) status = record_waters(measure, &view, time, measure->next, error);
@@ -378,6 +381,7 @@ static void advance(sb_measure *measure, const sb_sim *sim)
     }
     for (size_t i = 0; i < measure->scene->measure.plane_count; i++) measure->planes[i].last = measure->planes[i].now;
     for (size_t i = 0; i < measure->scene->measure.probe_count; i++) measure->probes[i].last = measure->probes[i].now;
+    if (measure->loads) sb_loads_advance(measure->loads);
 }
 
 static bool due(const sb_measure *measure, const sb_sim *sim)
@@ -390,6 +394,13 @@ bool sb_measure_reads_pressures(const sb_measure *measure, const sb_sim *sim)
     return measure->scene->measure.probe_count > 0 && due(measure, sim);
 }
 
+static sb_status add_loads(sb_measure *measure, const sb_sim *sim, sb_error *error)
+{
+    size_t count;
+    const sb_wall_push *pushes = sb_sim_pushes(sim, &count);
+    return sb_loads_step(measure->loads, pushes, count, sb_sim_report(sim)->time - measure->time, error);
+}
+
 sb_status sb_measure_step(sb_measure *measure, const sb_sim *sim, sb_error *error)
 {
     sb_status status = SB_OK;
@@ -398,6 +409,7 @@ sb_status sb_measure_step(sb_measure *measure, const sb_sim *sim, sb_error *erro
     for (size_t i = 0; status == SB_OK && i < measure->scene->measure.plane_count; i++)
         status = sb_plane_counter_step(measure->counters[i], &view, &measure->planes[i].now, error);
     sb_wall_probes_step(measure, sim, sb_sim_report(sim)->time - measure->time);
+    if (measure->loads && status == SB_OK) status = add_loads(measure, sim, error);
     if (measure->map) sb_map_step(measure->map, sim);
     measure->momentum_imbalance = fmax(measure->momentum_imbalance, sb_sim_report(sim)->momentum_imbalance);
     const bool any = due(measure, sim);
@@ -432,12 +444,19 @@ double sb_measure_gauge_missed(const sb_measure *measure, size_t gauge)
     return state->had_value ? 0 : state->deepest;
 }
 
-void sb_measure_fill_frame(const sb_measure *measure, sb_frame *frame)
+const sb_face_load *sb_measure_faces(const sb_measure *measure, size_t *count)
+{
+    *count = 0;
+    return measure->loads ? sb_loads_rows(measure->loads, count) : NULL;
+}
+
+sb_status sb_measure_fill_frame(const sb_measure *measure, sb_frame *frame, sb_error *error)
 {
     for (size_t b = 0; b < frame->body_count && b < measure->model->body_count; b++) {
         frame->bodies[b].force = measure->bodies[b].force;
         frame->bodies[b].moment = measure->bodies[b].torque;
     }
+    return measure->loads ? sb_loads_fill_frame(measure->loads, frame, error) : SB_OK;
 }
 
 const sb_skipped *sb_measure_skipped(const sb_measure *measure)
@@ -455,5 +474,6 @@ size_t sb_measure_bytes(const sb_measure *measure)
     for (size_t i = 0; i < measure->scene->measure.probe_count; i++)
         bytes += sizeof(sb_patch *) + sizeof *measure->probes + sb_patch_bytes(measure->patches[i]);
     bytes += measure->split_count * sizeof *measure->split_rows;
+    bytes += measure->loads ? sb_loads_bytes(measure->loads) : 0;
     return bytes + (measure->map ? sb_map_bytes(measure->map) : 0);
 }

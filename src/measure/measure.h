@@ -44,8 +44,14 @@ sb_status sb_measure_reflections(sb_measure *measure, const sb_reflection_record
 /* For a gauge that had no value in any row so far: the greatest depth of the water there, m. Otherwise 0. */
 double sb_measure_gauge_missed(const sb_measure *measure, size_t gauge);
 
-/* Copies the mean force and moment of the last interval into the bodies of a frame of this model. */
-void sb_measure_fill_frame(const sb_measure *measure, sb_frame *frame);
+/* With render.loads: the mean forces of the last finished interval on the faces of bodies that are neither terrain nor
+   move, numbered as by sb_faces_make. Those of a body sum to the pressure part of its force record. *count: 0 before
+   the end of the first interval, and without render.loads. Valid until the next step. */
+const sb_face_load *sb_measure_faces(const sb_measure *measure, size_t *count);
+
+/* Copies the mean force and moment of the last interval into the bodies of a frame of this model, and adds the loads of
+   faces if they are known. Fails only without memory. */
+sb_status sb_measure_fill_frame(const sb_measure *measure, sb_frame *frame, sb_error *error);
 
 /* Measurements that this scene does not need (static text). */
 const sb_skipped *sb_measure_skipped(const sb_measure *measure);

@@ -75,6 +75,7 @@ void sb_measure_save(const sb_measure *measure, sb_archive_out *out)
     sb_reflections_save(measure, out);
     sb_put_flag(out, measure->map != NULL);
     if (measure->map) sb_map_save(measure->map, out);
+    if (measure->loads) sb_loads_save(measure->loads, out);
 }
 
 static sb_status take_planes(sb_measure *measure, sb_archive_in *in, sb_error *error)
@@ -140,5 +141,6 @@ sb_status sb_measure_load(sb_measure *measure, sb_archive_in *in, sb_error *erro
     if (sb_take_flag(in) != (measure->map != NULL))
         sb_archive_refuse(in, measure->map ? "no map, expected one" : "a map, expected none");
     if (measure->map) sb_map_load(measure->map, in);
+    if (measure->loads) sb_loads_load(measure->loads, in);
     return sb_archive_leave(in, error);
 }

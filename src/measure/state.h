@@ -2,6 +2,7 @@
 #ifndef SB_MEASURE_STATE_H
 #define SB_MEASURE_STATE_H
 
+#include "measure/loads.h"
 #include "measure/measure.h"
 #include "measure/parts.h"
 
@@ -67,13 +68,14 @@ struct sb_measurements {
     size_t split_count;               /* rows of all sets */
     sb_reflection_record *split_rows; /* scratch: of one window of each set */
     sb_map_field *map;
+    sb_loads *loads; /* NULL: no picture shows them */
     sb_cloud cloud;
     list lists[LISTS];
     sb_measure_records latest;
     sb_skipped skipped[MAX_SKIPPED + 1];
 };
 
-/* wall_probes.c: makes the simulation record the forces on the patches. */
+/* wall_probes.c: makes the simulation record the forces on the patches, and those on the faces of bodies. */
 sb_status sb_wall_probes_start(const sb_measure *measure, sb_sim *sim, sb_error *error);
 /* Adds the forces of the last step, which took `taken` s. */
 void sb_wall_probes_step(sb_measure *measure, const sb_sim *sim, double taken);

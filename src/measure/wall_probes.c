@@ -8,12 +8,13 @@
 sb_status sb_wall_probes_start(const sb_measure *measure, sb_sim *sim, sb_error *error)
 {
     const size_t probes = measure->scene->measure.probe_count;
-    sb_push_place *places = sb_alloc(probes * SB_PATCH_PLACES, sizeof *places);
+    const size_t bodies = measure->loads ? measure->model->body_count : 0;
+    sb_push_place *places = sb_alloc(bodies + probes * SB_PATCH_PLACES, sizeof *places);
     if (sb_ranks_any(sb_sim_ranks(sim), !places)) {
         sb_free(places);
         return sb_fail_memory(error, "probes on walls");
     }
-    size_t count = 0;
+    size_t count = measure->loads ? sb_loads_places(measure->loads, places) : 0;
     for (size_t i = 0; i < probes; i++) count += sb_patch_places(measure->patches[i], places + count);
     const sb_status status = sb_sim_record_pushes(sim, places, count, error);
     sb_free(places);

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HEADER_MAX = 65536, MAX_BODIES = 1 << 20, POINT_BLOCK = 256 };
+enum { HEADER_MAX = 65536, MAX_BODIES = 1 << 20, MAX_FACES = 1 << 24, POINT_BLOCK = 256 };
 
 /* An open particle file: its XML part as text, and where the appended data lie. */
 typedef struct source {
@@ -206,6 +206,8 @@ static sb_status check_numbers(const source *file, const sb_frame *frame, sb_err
         return damaged(file, error, "particles whose position, velocity or pressure is not finite");
     if (frame->density_error && !all_finite(frame->density_error, frame->count))
         return damaged(file, error, "particles whose density error is not finite");
+    if (!all_finite(frame->face_pressure, frame->face_count))
+        return damaged(file, error, "a face whose pressure is not finite");
     for (size_t b = 0; b < frame->body_count; b++) {
         const sb_frame_body *body = &frame->bodies[b];
         if (!sb_isfinite(body->displacement) || !sb_isfinite(body->force) || !sb_isfinite(body->moment))
@@ -222,6 +224,18 @@ static sb_status read_density_error(source *file, sb_frame *frame, sb_error *err
     return read_array(file, "density_error", "Float32", 4, 1, file->points, frame->density_error, error);
 }
 
+/* Only runs whose pictures show them write them. */
+static sb_status read_faces(source *file, sb_frame *frame, sb_error *error)
+{
+    uint64_t faces = 0;
+    if (!strstr(file->header, "Name=\"face_pressure\"")) return SB_OK;
+    sb_status status = find_array(file, "face_pressure", "Float32", 4, 1, &faces, error);
+    if (status == SB_OK && faces > MAX_FACES) status = damaged(file, error, "too many faces of bodies");
+    if (status != SB_OK) return status;
+    if (!sb_frame_add_faces(frame, faces)) return sb_fail_memory(error, file->path);
+    return read_array(file, "face_pressure", "Float32", 4, 1, faces, frame->face_pressure, error);
+}
+
 static sb_status read_frame(source *file, sb_frame **frame, sb_error *error)
 {
     uint64_t bodies = 0;
@@ -234,6 +248,7 @@ static sb_status read_frame(source *file, sb_frame **frame, sb_error *error)
     if (!made) return sb_fail_memory(error, file->path);
     status = read_fields(file, made, error);
     if (status == SB_OK) status = read_bodies(file, made, error);
+    if (status == SB_OK) status = read_faces(file, made, error);
     if (status == SB_OK) status = read_points(file, made->origin, made->position, error);
     if (status == SB_OK) status = read_array(file, "velocity", "Float32", 4, 3, file->points, made->velocity, error);
     if (status == SB_OK) status = read_array(file, "pressure", "Float32", 4, 1, file->points, made->pressure, error);

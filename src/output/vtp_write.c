@@ -216,6 +216,8 @@ sb_status sb_vtp_write(const char *path, const sb_frame *frame, uint64_t index, 
         add(&file, (array){"spacing", "Float64", 8, 1, 1, &frame->spacing, NULL});
         add(&file, (array){"status", "Float64", 8, SB_VTP_STATUS_COUNT, 1, status_values, NULL});
         add_bodies(&file, frame, &columns);
+        if (frame->face_count > 0)
+            add(&file, (array){"face_pressure", "Float32", 4, 1, frame->face_count, frame->face_pressure, NULL});
         file.field_count = file.total;
         add(&file, (array){"velocity", "Float32", 4, 3, frame->count, frame->velocity, NULL});
         add(&file, (array){"pressure", "Float32", 4, 1, frame->count, frame->pressure, NULL});

@@ -134,7 +134,7 @@ static const char shallow[] =
 
 /* The shader's branches are not skipped, so that pixels are sorted first: bodies and sky, water through which nothing
    is seen, and mixtures. The kind is the depth from which each pass selects its pixels. */
-enum { KIND, BEHIND, WATER, MIXTURE, DEPTH };
+enum { KIND, BEHIND, WATER, MIXTURE };
 static const char *const mains[SB_COMPOSE_PASSES] = {
     [KIND] = "void main() {\n"
              "  ivec2 p = pixel();\n"
@@ -173,13 +173,6 @@ static const char *const mains[SB_COMPOSE_PASSES] = {
                 "#endif\n"
                 "  color = encoded(c);\n"
                 "}\n",
-    [DEPTH] = "void main() {\n"
-              "  ivec2 p = pixel();\n"
-              "  vec4 w = texelFetch(surface, p, 0);\n"
-              "  float raw = texelFetch(depths, p, 0).x, z = depth_at(p);\n"
-              "  bool wet = w.x > 0.0 && w.x < z && cover_at(p).x > 0.5;\n"
-              "  gl_FragDepth = wet ? 0.5 + 0.5 * (clip.x + clip.y / w.x) : raw;\n"
-              "}\n",
 };
 
 static sb_status make_program(int pass, const sb_effects *effects, GLuint *program, sb_error *error)
@@ -270,10 +263,25 @@ static void draw_pass(const sb_compose *compose, const sb_parts *parts, const sb
     sb_uniform_float(program, "painted", parts->painted);
     sb_uniform_float(program, "loaded", parts->loaded);
     sb_uniform_float(program, "depth_max", parts->depth_max);
-    sb_uniform_float(program, "clarity", light->size / 500);
+    sb_uniform_float(program, "clarity", sb_compose_clarity(light));
     sb_uniform_float(program, "thickest", parts->thickest);
     sb_uniform_float(program, "sea_level", light->sea_level - light->origin.z);
     sb_fullscreen_draw(compose->empty);
+}
+
+static void upload_kinds(const sb_parts *parts)
+{
+    sb_gl.ActiveTexture(GL_TEXTURE0);
+    sb_gl.BindTexture(GL_TEXTURE_2D, parts->kind_depth);
+    sb_gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, parts->scenery->width, parts->scenery->height, 0,
+                     GL_DEPTH_COMPONENT, GL_FLOAT, parts->kinds);
+}
+
+static void find_kinds(const sb_compose *compose, const sb_parts *parts, const sb_view *view)
+{
+    sb_gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    draw_pass(compose, parts, view, KIND, 0);
+    sb_gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 void sb_compose_draw(const sb_compose *compose, const sb_parts *parts, const sb_view *view)
@@ -281,9 +289,10 @@ void sb_compose_draw(const sb_compose *compose, const sb_parts *parts, const sb_
     sb_gl.Enable(GL_DEPTH_TEST);
     sb_gl.DepthFunc(GL_ALWAYS);
     sb_gl.DepthMask(GL_TRUE);
-    sb_gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    draw_pass(compose, parts, view, KIND, 0);
-    sb_gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    if (parts->kinds)
+        upload_kinds(parts);
+    else
+        find_kinds(compose, parts, view);
     sb_gl.DepthMask(GL_FALSE);
     sb_gl.DepthFunc(GL_GREATER);
     draw_pass(compose, parts, view, BEHIND, 0.25);
@@ -291,8 +300,4 @@ void sb_compose_draw(const sb_compose *compose, const sb_parts *parts, const sb_
     draw_pass(compose, parts, view, WATER, 0.25);
     draw_pass(compose, parts, view, MIXTURE, 0.75);
     sb_gl.DepthMask(GL_TRUE);
-    sb_gl.DepthFunc(GL_ALWAYS);
-    sb_gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    draw_pass(compose, parts, view, DEPTH, 0);
-    sb_gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }

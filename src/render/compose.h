@@ -7,7 +7,7 @@
 #include "render/scenery.h"
 #include "render/water.h"
 
-enum { SB_COMPOSE_PASSES = 5 };
+enum { SB_COMPOSE_PASSES = 4 };
 
 typedef struct sb_compose {
     GLuint programs[SB_COMPOSE_PASSES], empty;
@@ -20,6 +20,8 @@ typedef struct sb_parts {
     const sb_water *water;
     const sb_light *light;
     const sb_occlusion *occlusion; /* NULL: none */
+    const float *kinds;            /* as in kinds.h, per pixel; NULL: OpenGL finds them */
+    GLuint kind_depth;             /* texture of the depths of the bound framebuffer, which kinds replace */
     GLuint foam;                   /* texture of sb_foam_layer.pixels; 0: the picture has none */
     const sb_tops *shade;          /* the water as seen from the sun */
     double shade_bias;             /* heights of `shade` by which water does not shade itself */
@@ -39,10 +41,16 @@ typedef struct sb_effects {
     bool reached; /* sb_parts.reached */
 } sb_effects;
 
+/* Length of water, m, through which the bed is seen by 1/e. */
+static inline double sb_compose_clarity(const sb_light *light)
+{
+    return light->size / 500;
+}
+
 sb_status sb_compose_create(const sb_effects *effects, sb_compose *compose, sb_error *error);
 void sb_compose_destroy(sb_compose *compose);
 
-/* Draws all pixels and depths of the bound framebuffer. */
+/* Draws all pixels of the bound framebuffer; its depths are then kinds. */
 void sb_compose_draw(const sb_compose *compose, const sb_parts *parts, const sb_view *view);
 
 #endif

@@ -4,19 +4,16 @@
 #include "render/context.h"
 
 /* The surface is in memory already, unless OpenGL has drawn it as spheres. */
-static sb_status read_ground(sb_foam_texture *foam, const sb_scenery *scenery, const sb_water *water,
-                             sb_foam_ground *ground, sb_error *error)
+static sb_status read_ground(sb_foam_texture *foam, sb_scenery *scenery, const sb_water *water, sb_foam_ground *ground,
+                             sb_error *error)
 {
     const int width = water->width, height = water->height;
     const size_t pixels = (size_t)width * (size_t)height;
     *ground = (sb_foam_ground){.width = width, .height = height, .surface = water->splat.surface};
-    if (sb_grow((void **)&foam->bodies, &foam->bodies_capacity, pixels, sizeof *foam->bodies) != 0 ||
-        (water->solid &&
-         sb_grow((void **)&foam->surface, &foam->surface_capacity, pixels, 4 * sizeof *foam->surface) != 0))
+    ground->bodies = sb_scenery_depths(scenery);
+    if (!ground->bodies || (water->solid && sb_grow((void **)&foam->surface, &foam->surface_capacity, pixels,
+                                                    4 * sizeof *foam->surface) != 0))
         return sb_fail_memory(error, "the foam of a picture");
-    sb_gl.BindFramebuffer(GL_FRAMEBUFFER, scenery->framebuffer);
-    sb_gl.ReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, foam->bodies);
-    ground->bodies = foam->bodies;
     if (!water->solid) return SB_OK;
     sb_gl.BindFramebuffer(GL_FRAMEBUFFER, water->framebuffer);
     sb_gl.ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, foam->surface);
@@ -24,8 +21,8 @@ static sb_status read_ground(sb_foam_texture *foam, const sb_scenery *scenery, c
     return SB_OK;
 }
 
-sb_status sb_foam_texture_draw(sb_foam_texture *foam, const sb_frame *frame, const sb_scenery *scenery,
-                               const sb_water *water, const sb_view *view, sb_error *error)
+sb_status sb_foam_texture_draw(sb_foam_texture *foam, const sb_frame *frame, sb_scenery *scenery, const sb_water *water,
+                               const sb_view *view, sb_error *error)
 {
     sb_foam_ground ground;
     foam->drawn = frame->foam.count > 0;
@@ -45,7 +42,6 @@ void sb_foam_texture_destroy(sb_foam_texture *foam)
 {
     if (foam->texture) sb_gl.DeleteTextures(1, &foam->texture);
     sb_free(foam->surface);
-    sb_free(foam->bodies);
     sb_foam_layer_free(&foam->layer);
     *foam = (sb_foam_texture){0};
 }

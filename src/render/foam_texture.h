@@ -9,15 +9,15 @@
 typedef struct sb_foam_texture {
     GLuint texture; /* as sb_foam_layer.pixels; 0: no picture has had foam yet */
     bool drawn;     /* the picture drawn last has foam */
-    size_t surface_capacity, bodies_capacity;
-    float *surface, *bodies; /* read back from OpenGL */
+    size_t surface_capacity;
+    float *surface; /* read back from OpenGL */
     sb_foam_layer layer;
 } sb_foam_texture;
 
 /* Draws the foam of a frame whose bodies and water have been drawn. The context must be current. A zeroed struct is
    empty. A frame without foam costs nothing. */
-sb_status sb_foam_texture_draw(sb_foam_texture *foam, const sb_frame *frame, const sb_scenery *scenery,
-                               const sb_water *water, const sb_view *view, sb_error *error);
+sb_status sb_foam_texture_draw(sb_foam_texture *foam, const sb_frame *frame, sb_scenery *scenery, const sb_water *water,
+                               const sb_view *view, sb_error *error);
 void sb_foam_texture_destroy(sb_foam_texture *foam);
 
 #endif

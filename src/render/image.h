@@ -21,7 +21,7 @@ sb_status sb_image_resize(sb_image *image, int width, int height, sb_error *erro
 /* Frees the pixels and zeroes the struct. Has no effect on an empty one. */
 void sb_image_free(sb_image *image);
 
-/* Writes the picture completely or not at all, with settings for speed: compression level 3, no filter. The text chunk
+/* Writes the picture completely or not at all, compressed for speed. The text chunk
    "Software" contains "shorebreak". */
 sb_status sb_png_write(const char *path, const sb_image *image, sb_error *error);
 

@@ -63,8 +63,16 @@ static const char line_vertex[] = "layout(location = 0) in vec3 position;\n"
 
 static const char line_fragment[] = "in float depth;\n"
                                     "out vec4 color;\n"
-                                    "uniform float alpha, fade;\n"
-                                    "void main() { color = vec4(0.05, 0.07, 0.09, alpha * exp(-depth * fade)); }\n";
+                                    "uniform float alpha, fade, solid;\n"
+                                    "uniform vec2 clip;\n"
+                                    "uniform sampler2D surface, cover;\n"
+                                    "void main() {\n"
+                                    "  ivec2 p = ivec2(gl_FragCoord.xy);\n"
+                                    "  float w = texelFetch(surface, p, 0).x;\n"
+                                    "  bool wet = w > 0.0 && (solid > 0.5 || texelFetch(cover, p, 0).x > 0.5);\n"
+                                    "  if (wet && gl_FragCoord.z > 0.5 + 0.5 * (clip.x + clip.y / w)) discard;\n"
+                                    "  color = vec4(0.05, 0.07, 0.09, alpha * exp(-depth * fade));\n"
+                                    "}\n";
 
 static const char depth_fragment[] = "void main() {}\n";
 
@@ -160,7 +168,8 @@ void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const 
     end_cut(view);
 }
 
-void sb_meshes_draw_edges(const sb_meshes *meshes, const sb_view *view, const sb_frame *frame)
+void sb_meshes_draw_edges(const sb_meshes *meshes, const sb_view *view, const sb_frame *frame,
+                          const sb_edge_water *water)
 {
     GLuint program = meshes->line_program;
     float matrix[16];
@@ -169,6 +178,10 @@ void sb_meshes_draw_edges(const sb_meshes *meshes, const sb_view *view, const sb
     sb_uniform_mat4(program, "view", matrix);
     sb_uniform_mat4(program, "projection", view->projection);
     sb_uniform_float(program, "fade", 1.2 / view->far);
+    sb_uniform_float(program, "solid", water->solid);
+    sb_uniform_vec2(program, "clip", (double)-view->projection[10], (double)view->projection[14]);
+    sb_uniform_texture(program, "surface", 0, water->surface);
+    sb_uniform_texture(program, "cover", 1, water->cover);
     begin_cut(meshes, view, program);
     sb_gl.Enable(GL_DEPTH_TEST);
     sb_gl.DepthFunc(GL_LEQUAL);

@@ -34,7 +34,15 @@ void sb_meshes_draw_depth(const sb_meshes *meshes, const float clip[16]);
    targets. Moving bodies are displaced by the frame's displacements (matched by index, else by name). */
 void sb_meshes_draw_faces(const sb_meshes *meshes, const sb_light *light, const sb_view *view, const sb_frame *frame);
 
-/* Draws the feature edges as thin dark lines; nearer surfaces hide them. */
-void sb_meshes_draw_edges(const sb_meshes *meshes, const sb_view *view, const sb_frame *frame);
+/* The water that may hide edges. */
+typedef struct sb_edge_water {
+    GLuint surface, cover; /* textures, as in sb_splat */
+    bool solid;            /* the surface covers every pixel that has a depth */
+} sb_edge_water;
+
+/* Draws the feature edges as thin dark lines. They are hidden by the bound framebuffer's depths, which are those of the
+   bodies, and by the water. */
+void sb_meshes_draw_edges(const sb_meshes *meshes, const sb_view *view, const sb_frame *frame,
+                          const sb_edge_water *water);
 
 #endif

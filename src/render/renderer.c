@@ -8,6 +8,7 @@
 #include "render/face_loads.h"
 #include "render/fields.h"
 #include "render/foam_texture.h"
+#include "render/kinds.h"
 #include "render/overhead.h"
 #include "render/soften.h"
 
@@ -19,7 +20,10 @@ struct sb_renderer {
     sb_vec3 min, max; /* m, scene: domain and meshes */
     double depth;     /* m, from the still water to the lowest ground */
     sb_context *context;
-    GLuint framebuffer, color, depth_buffer;
+    GLuint framebuffer, color, kind_depth; /* of the picture, with the depths of kinds.h */
+    GLuint edges;                          /* a framebuffer of the same colours and the depths of a scenery */
+    size_t kind_capacity;
+    float *kinds; /* per pixel, as in kinds.h */
     sb_meshes *meshes;
     sb_light light;
     sb_scenery sceneries[SCENERIES]; /* of the cameras, each with its number modulo SCENERIES */
@@ -36,16 +40,19 @@ struct sb_renderer {
 
 static sb_status make_framebuffer(sb_renderer *r, sb_error *error)
 {
-    sb_gl.GenRenderbuffers(1, &r->depth_buffer);
-    sb_gl.BindRenderbuffer(GL_RENDERBUFFER, r->depth_buffer);
-    sb_gl.RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, r->width, r->height);
+    r->kind_depth =
+        sb_texture_create(GL_DEPTH_COMPONENT32F, r->width, r->height, GL_DEPTH_COMPONENT, GL_FLOAT, NULL, GL_NEAREST);
     sb_gl.GenRenderbuffers(1, &r->color);
     sb_gl.BindRenderbuffer(GL_RENDERBUFFER, r->color);
     sb_gl.RenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, r->width, r->height);
     sb_gl.GenFramebuffers(1, &r->framebuffer);
     sb_gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
     sb_gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, r->color);
-    sb_gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, r->depth_buffer);
+    sb_gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, r->kind_depth, 0);
+    sb_gl.GenFramebuffers(1, &r->edges);
+    sb_gl.BindFramebuffer(GL_FRAMEBUFFER, r->edges);
+    sb_gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, r->color);
+    sb_gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
     return sb_framebuffer_check("picture", error);
 }
 
@@ -169,8 +176,37 @@ sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_re
     return status;
 }
 
-static void draw_picture(sb_renderer *r, const sb_frame *frame, const sb_scenery *scenery, const sb_camera *camera,
-                         const sb_view *view)
+/* The kinds of pixels, if the water is in memory; NULL: it is drawn by OpenGL. */
+static sb_status find_kinds(sb_renderer *r, const sb_frame *frame, sb_scenery *scenery, const sb_view *view,
+                            const float **kinds, sb_error *error)
+{
+    *kinds = NULL;
+    if (r->water.solid) return SB_OK;
+    const sb_kind_parts parts = {.splat = &r->water.splat,
+                                 .bodies = sb_scenery_depths(scenery),
+                                 .foam = r->foam.drawn ? r->foam.layer.pixels : NULL,
+                                 .view = view,
+                                 .clarity = sb_compose_clarity(&r->light),
+                                 .thickest = SB_SURFEL_THICKEST * frame->spacing,
+                                 .threads = sb_context_threads()};
+    if (!parts.bodies ||
+        sb_grow((void **)&r->kinds, &r->kind_capacity, (size_t)r->width * (size_t)r->height, sizeof *r->kinds) != 0)
+        return sb_fail_memory(error, "a picture");
+    sb_kinds_find(&parts, r->kinds);
+    *kinds = r->kinds;
+    return SB_OK;
+}
+
+static void draw_edges(const sb_renderer *r, const sb_frame *frame, const sb_scenery *scenery, const sb_view *view)
+{
+    const sb_edge_water water = {r->water.surface, r->water.cover, r->water.solid};
+    sb_gl.BindFramebuffer(GL_FRAMEBUFFER, r->edges);
+    sb_gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, scenery->depth, 0);
+    sb_meshes_draw_edges(r->meshes, view, frame, &water);
+}
+
+static void draw_picture(sb_renderer *r, const sb_frame *frame, const sb_scenery *scenery, const float *kinds,
+                         const sb_camera *camera, const sb_view *view)
 {
     const sb_render_settings *settings = &r->scene->render;
     const bool reaches = settings->wet_ground || settings->greatest_depth;
@@ -181,6 +217,8 @@ static void draw_picture(sb_renderer *r, const sb_frame *frame, const sb_scenery
                             .water = &r->water,
                             .light = &r->light,
                             .occlusion = settings->occlusion ? &r->occlusion : NULL,
+                            .kinds = kinds,
+                            .kind_depth = r->kind_depth,
                             .foam = r->foam.drawn ? r->foam.texture : 0,
                             .shade = &r->overhead.shade,
                             .shade_bias = 1.5 * frame->spacing * sb_overhead_scale(&r->light),
@@ -194,7 +232,7 @@ static void draw_picture(sb_renderer *r, const sb_frame *frame, const sb_scenery
     sb_gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
     sb_gl.Viewport(0, 0, r->width, r->height);
     sb_compose_draw(&r->compose, &parts, view);
-    sb_meshes_draw_edges(r->meshes, view, frame);
+    draw_edges(r, frame, scenery, view);
     sb_gl.ReadPixels(0, 0, r->width, r->height, GL_RGBA, GL_UNSIGNED_BYTE, r->pixels);
 }
 
@@ -209,7 +247,7 @@ static double load_max(const sb_renderer *r)
 static void tint(sb_renderer *r, const sb_frame *frame, sb_scenery *scenery)
 {
     sb_face_loads_compute(&r->loads, frame, load_max(r));
-    sb_meshes_recolor(r->meshes, r->loads.colors[0], 3 * r->loads.triangle_count);
+    sb_meshes_recolor(r->meshes, r->loads.colors[0], 3 * r->loads.faces.all_count);
     scenery->drawn = false;
 }
 
@@ -229,8 +267,10 @@ static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, size_t numbe
         status = sb_foam_texture_draw(&r->foam, frame, scenery, &r->water, view, error);
     const bool reaches = r->scene->render.wet_ground || r->scene->render.greatest_depth;
     if (status == SB_OK) status = sb_overhead_update(&r->overhead, &r->light, frame, r->water.density, reaches, error);
+    const float *kinds = NULL;
+    if (status == SB_OK) status = find_kinds(r, frame, scenery, view, &kinds, error);
     if (status != SB_OK) return status;
-    draw_picture(r, frame, scenery, camera, view);
+    draw_picture(r, frame, scenery, kinds, camera, view);
     GLenum code = sb_gl.GetError();
     if (code == GL_OUT_OF_MEMORY) return sb_fail_memory(error, "drawing");
     if (code != GL_NO_ERROR) return sb_fail(error, SB_FAILED, "OpenGL error 0x%04x while drawing", code);
@@ -320,13 +360,15 @@ void sb_renderer_destroy(sb_renderer *renderer)
         sb_meshes_destroy(r->meshes);
         sb_gl.DeleteFramebuffers(1, &r->framebuffer);
         sb_gl.DeleteRenderbuffers(1, &r->color);
-        sb_gl.DeleteRenderbuffers(1, &r->depth_buffer);
+        sb_gl.DeleteFramebuffers(1, &r->edges);
+        sb_gl.DeleteTextures(1, &r->kind_depth);
         sb_context_leave(r->context);
     }
     sb_context_destroy(r->context);
     sb_values_free(&r->values);
     sb_slicer_free(&r->slicer);
     sb_face_loads_free(&r->loads);
+    sb_free(r->kinds);
     sb_free(r->pixels);
     sb_free(r);
 }

@@ -34,6 +34,7 @@ void sb_scenery_destroy(sb_scenery *scenery)
     sb_gl.DeleteTextures(1, &scenery->depth);
     sb_gl.DeleteFramebuffers(1, &scenery->framebuffer);
     sb_free(scenery->displacements);
+    sb_free(scenery->values);
     *scenery = (sb_scenery){0};
 }
 
@@ -70,5 +71,17 @@ sb_status sb_scenery_draw(sb_scenery *scenery, const sb_meshes *meshes, const sb
     scenery->body_count = frame->body_count;
     scenery->view = *view;
     scenery->drawn = true;
+    scenery->read = false;
     return SB_OK;
+}
+
+const float *sb_scenery_depths(sb_scenery *scenery)
+{
+    const size_t pixels = (size_t)scenery->width * (size_t)scenery->height;
+    if (!scenery->values) scenery->values = sb_alloc_untouched(pixels, sizeof *scenery->values);
+    if (!scenery->values || scenery->read) return scenery->values;
+    sb_gl.BindFramebuffer(GL_FRAMEBUFFER, scenery->framebuffer);
+    sb_gl.ReadPixels(0, 0, scenery->width, scenery->height, GL_DEPTH_COMPONENT, GL_FLOAT, scenery->values);
+    scenery->read = true;
+    return scenery->values;
 }

@@ -13,6 +13,8 @@ typedef struct sb_scenery {
     sb_view view;
     size_t body_capacity, body_count;
     sb_vec3 *displacements; /* m, of each body of the frame that was drawn */
+    bool read;              /* `values` are those of the depth texture */
+    float *values;          /* NULL until they are read */
 } sb_scenery;
 
 /* Creates the textures. The context must be current. A zeroed sb_scenery may be destroyed. */
@@ -22,5 +24,9 @@ void sb_scenery_destroy(sb_scenery *scenery);
 /* Draws the bodies unless they look the same as before. */
 sb_status sb_scenery_draw(sb_scenery *scenery, const sb_meshes *meshes, const sb_light *light, const sb_view *view,
                           const sb_frame *frame, sb_error *error);
+
+/* The values of the depth texture, rows from the bottom up, valid until the bodies are drawn again; they are read from
+   OpenGL once. NULL without memory. */
+const float *sb_scenery_depths(sb_scenery *scenery);
 
 #endif

@@ -38,6 +38,12 @@ void sb_splat_free(sb_splat *splat)
     *splat = (sb_splat){0};
 }
 
+/* The pixels of an element: of its disc, or also of its drop. */
+static sb_splat_box box_of(const sb_splat_lens *lens, const sb_surfel *s)
+{
+    return s->share < 1 ? sb_splat_box_of(lens, s, s->radius) : sb_splat_outline_of(lens, s, 1).box;
+}
+
 /* Sorts the elements by the bands that they touch, each band in the order of the list. */
 static sb_status sort(sb_splat *splat, const sb_surfels *surfels, const sb_splat_lens *lens, size_t bands,
                       sb_error *error)
@@ -46,7 +52,7 @@ static sb_status sort(sb_splat *splat, const sb_surfels *surfels, const sb_splat
         return sb_fail_memory(error, "the water of a picture");
     memset(splat->first, 0, (bands + 2) * sizeof *splat->first);
     for (size_t i = 0; i < surfels->count; i++) {
-        const sb_splat_box box = sb_splat_box_of(lens, &surfels->list[i], surfels->list[i].radius);
+        const sb_splat_box box = box_of(lens, &surfels->list[i]);
         for (int b = box.y0 / SB_BAND_ROWS; b * SB_BAND_ROWS < box.y1; b++) splat->first[b + 2]++;
     }
     for (size_t b = 2; b < bands + 2; b++) splat->first[b] += splat->first[b - 1];
@@ -54,25 +60,28 @@ static sb_status sort(sb_splat *splat, const sb_surfels *surfels, const sb_splat
     if (sb_grow((void **)&splat->bins, &splat->bin_capacity, total, sizeof *splat->bins) != 0)
         return sb_fail_memory(error, "the water of a picture");
     for (size_t i = 0; i < surfels->count; i++) {
-        const sb_splat_box box = sb_splat_box_of(lens, &surfels->list[i], surfels->list[i].radius);
+        const sb_splat_box box = box_of(lens, &surfels->list[i]);
         for (int b = box.y0 / SB_BAND_ROWS; b * SB_BAND_ROWS < box.y1; b++)
             splat->bins[splat->first[b + 1]++] = (uint32_t)i;
     }
     return SB_OK;
 }
 
+static size_t stride_of(int width)
+{
+    return ((size_t)width + SB_BAND_LANES - 1) / SB_BAND_LANES * SB_BAND_LANES;
+}
+
 /* The memory of one thread: the parts of a band one after the other. */
 static sb_band band_at(float *memory, int width)
 {
-    const size_t pixels = (size_t)width * SB_BAND_ROWS, row = (size_t)width;
-    sb_band band = {.width = width, .sums = memory};
+    const size_t pixels = stride_of(width) * SB_BAND_ROWS;
+    sb_band band = {.width = width, .stride = stride_of(width), .sums = memory};
     band.second_sums = band.sums + SB_BAND_SUMS * pixels;
     band.front = band.second_sums + SB_BAND_SUMS * pixels;
     band.second = band.front + pixels;
     band.drops = band.second + pixels;
-    band.weight = band.drops + 3 * pixels;
-    band.depth = band.weight + row;
-    band.open = (int32_t *)(band.depth + row);
+    band.open = (int32_t *)(band.drops + 3 * pixels);
     return band;
 }
 
@@ -81,7 +90,7 @@ sb_status sb_splat_draw(sb_splat *splat, const sb_surfels *surfels, const sb_vie
 {
     const sb_splat_lens lens = lens_of(splat, view, spacing);
     const int bands = (splat->height + SB_BAND_ROWS - 1) / SB_BAND_ROWS;
-    const size_t size = (size_t)splat->width * ((2 * SB_BAND_SUMS + 6) * SB_BAND_ROWS + 2) + SB_BAND_ROWS;
+    const size_t size = stride_of(splat->width) * (2 * SB_BAND_SUMS + 6) * SB_BAND_ROWS + SB_BAND_ROWS + SB_BAND_LANES;
     float *memory = sb_alloc(size * (size_t)threads, sizeof *memory);
     if (!memory) return sb_fail_memory(error, "the water of a picture");
     sb_status status = sort(splat, surfels, &lens, (size_t)bands, error);

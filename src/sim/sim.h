@@ -151,7 +151,7 @@ typedef struct sb_wall_push {
 typedef struct sb_push_place {
     size_t body;
     sb_vec3 at;   /* m */
-    double range; /* m */
+    double range; /* m; HUGE_VAL: everywhere on the body */
 } sb_push_place;
 /* From the next step on, each step records the forces near these places. Replaces the places given before. The state
    does not change. Together. */

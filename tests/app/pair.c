@@ -90,6 +90,8 @@ void assert_same_frame(const sb_frame *one, const sb_frame *two)
     assert_memory_equal(one->velocity, two->velocity, 12 * one->count);
     assert_memory_equal(one->pressure, two->pressure, 4 * one->count);
     assert_memory_equal(one->id, two->id, 4 * one->count);
+    assert_int_equal(one->face_count, two->face_count);
+    if (one->face_count > 0) assert_memory_equal(one->face_pressure, two->face_pressure, 4 * one->face_count);
 }
 
 /* Particle files contain the wall time; everything else is compared. */

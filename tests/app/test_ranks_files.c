@@ -174,6 +174,40 @@ static void a_full_disk_of_one_rank_leaves_the_checkpoint_before(void **state)
     RUN_ON("2", 0, "measured.yaml", "--out", "full", "--quiet", FINE, "--until", "0.003", "--resume");
 }
 
+static sb_frame *last_frame(const char *path, bool pieces)
+{
+    sb_frame *frame = NULL;
+    sb_error error = {0};
+    const sb_status status = pieces ? sb_pvtp_read(path, &frame, &error) : sb_vtp_read(path, &frame, &error);
+    if (status != SB_OK) fail_msg("%s", error.text);
+    return frame;
+}
+
+#define LOADS "render.loads=true", "--set", "render.interval=0"
+
+/* The loads on the faces of the bodies: of one process, of ranks, in pieces, and of a run that other ranks resume. */
+static void loads_of_faces_do_not_depend_on_the_ranks(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "loads1", "--quiet", "--set", LOADS);
+    RUN_ON("3", 0, "tank3.yaml", "--out", "loads3", "--quiet", "--set", PIECES, "--set", LOADS);
+    RUN_ON("2", 0, "tank3.yaml", "--out", "loads2", "--quiet", "--set", LOADS, "--until", "0.17");
+    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "loads2", "--quiet", "--set", LOADS, "--resume");
+    sb_frame *one = last_frame(in_folder("loads1/particles/000004.vtp"), false);
+    sb_frame *two = last_frame(in_folder("loads2/particles/000004.vtp"), false);
+    sb_frame *three = last_frame(in_folder("loads3/particles/000004.pvtp"), true);
+    float most = 0;
+    assert_same_frame(one, two);
+    assert_same_frame(one, three);
+    assert_int_equal(one->face_count, 12); /* of a post and a sill */
+    for (size_t f = 0; f < one->face_count; f++) most = one->face_pressure[f] > most ? one->face_pressure[f] : most;
+    assert_true(most > 100);
+    sb_frame_release(one);
+    sb_frame_release(two);
+    sb_frame_release(three);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -182,6 +216,7 @@ int main(void)
         cmocka_unit_test(a_run_with_pieces_resumes),
         cmocka_unit_test(a_piece_that_cannot_be_written_is_missed),
         cmocka_unit_test(pictures_are_drawn_from_pieces),
+        cmocka_unit_test(loads_of_faces_do_not_depend_on_the_ranks),
         cmocka_unit_test(checkpoints_have_the_bytes_of_one_process),
         cmocka_unit_test(a_full_disk_of_one_rank_leaves_the_checkpoint_before),
     };

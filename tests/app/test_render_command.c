@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 
+#include <limits.h>
 #include <png.h>
 #include <signal.h>
 #include <stdio.h>
@@ -67,6 +68,56 @@ static void one_camera_into_another_folder(void **state)
     /* Pictures of different cameras must differ, otherwise the comparison would prove nothing. */
     read_picture(in_folder("r/frames/front/%06d.png", FRAMES), during, WIDTH, HEIGHT);
     assert_true(difference(drawn, during) > 0.1);
+}
+
+/* Each camera that is named is drawn, in any order; those that are not named are left alone. */
+static void several_cameras(void **state)
+{
+    (void)state;
+    static const char cameras[] = "render.cameras=[{name: a, eye: [1, -3, 1], target: [1, 0, 0]}, "
+                                  "{name: b, eye: [1, -2, 2], target: [1, 0, 0]}, "
+                                  "{name: c, eye: [1, -1, 3], target: [1, 0, 0]}]";
+    RUN_AND_FORGET(0, "render", "r", "--out", "two", "--quiet", "--set", cameras, "--camera", "c", "--camera", "a",
+                   "--camera", "c");
+    assert_true(exists("two/frames/a/000004.png") && exists("two/frames/c/000004.png"));
+    assert_false(exists("two/frames/b"));
+    outcome o = RUN(1, "render", "r", "--out", "none", "--set", cameras, "--camera", "a", "--camera", "d");
+    assert_one_line(o.err, "--camera d: no such camera");
+    outcome_free(&o);
+    assert_false(exists("none"));
+}
+
+/* The niceness of a process; INT_MIN: it has ended. The graphics library gives threads of its own a lower priority. */
+static int niceness_of(pid_t process)
+{
+    char path[64], text[1024];
+    snprintf(path, sizeof path, "/proc/%d/stat", (int)process);
+    FILE *file = fopen(path, "r");
+    text[file ? fread(text, 1, sizeof text - 1, file) : 0] = '\0';
+    if (file) fclose(file);
+    const char *at = strrchr(text, ')'); /* behind it: state, 15 numbers, the niceness */
+    for (int k = 0; at && k < 17; k++) at = strchr(at + 1, ' ');
+    return at ? atoi(at) : INT_MIN;
+}
+
+/* No simulation runs in a render, so that it keeps the priority that it was started with. */
+static void at_its_own_priority(void **state)
+{
+    (void)state;
+    int samples = 0, most = INT_MIN;
+    const pid_t process = program_start(
+        (const char *const[]){"render", "r", "--out", "own", "--quiet", "--set", "render.width=640", NULL});
+    for (double end = sb_clock() + 30; !exists("own/frames/front/000004.png") && sb_clock() < end; usleep(500)) {
+        const int now = niceness_of(process);
+        if (!exists("own/frames/side/000001.png") || now == INT_MIN) continue;
+        samples++;
+        most = now > most ? now : most;
+    }
+    outcome o = program_finish(process);
+    assert_int_equal(o.status, 0);
+    outcome_free(&o);
+    assert_true(samples > 0);
+    assert_int_equal(most, getpriority(PRIO_PROCESS, 0));
 }
 
 static void all_cameras_without_a_choice(void **state)
@@ -245,6 +296,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(water_of_the_grid_is_shown),
         cmocka_unit_test(one_camera_into_another_folder),
+        cmocka_unit_test(several_cameras),
+        cmocka_unit_test(at_its_own_priority),
         cmocka_unit_test(all_cameras_without_a_choice),
         cmocka_unit_test(a_new_camera),
         cmocka_unit_test(into_the_run_itself),

@@ -96,7 +96,7 @@ static void peak_is_of_interval_means(void **state)
         fake_step(&world.sim, 0.025);
         assert_int_equal(sb_measure_step(measure, &world.sim, NULL), SB_OK);
     }
-    sb_measure_fill_frame(measure, &frame);
+    assert_int_equal(sb_measure_fill_frame(measure, &frame, NULL), SB_OK);
     assert_true(fabs(in_frame[2].force.y - 50) < 1e-9);
     sb_measure_destroy(measure);
     fake_world_free(&world);

@@ -35,6 +35,8 @@ static sb_frame *make_frame(size_t count, size_t bodies)
         frame->pressure[i] = (float)(1e5 * sb_random(20, i));
         frame->id[i] = (uint32_t)(count - i);
     }
+    if (count % 2 == 1 && sb_frame_add_faces(frame, 3 * count)) /* the same */
+        for (size_t f = 0; f < 3 * count; f++) frame->face_pressure[f] = (float)(1e4 * sb_random(31, f));
     if (count % 2 == 1 && sb_frame_add_density_error(frame)) /* an array that not all frames have */
         for (size_t i = 0; i < count; i++) frame->density_error[i] = (float)(0.01 * sb_random(30, i));
     for (size_t b = 0; b < bodies; b++) {
@@ -64,6 +66,8 @@ static void assert_same(const sb_frame *a, const sb_frame *b)
     assert_memory_equal(a->pressure, b->pressure, 4 * a->count);
     assert_memory_equal(a->id, b->id, 4 * a->count);
     assert_true((a->density_error == NULL) == (b->density_error == NULL));
+    assert_int_equal(a->face_count, b->face_count);
+    if (a->face_count > 0) assert_memory_equal(a->face_pressure, b->face_pressure, 4 * a->face_count);
     if (a->density_error) assert_memory_equal(a->density_error, b->density_error, 4 * a->count);
     for (size_t k = 0; k < a->body_count; k++) {
         assert_string_equal(a->bodies[k].name, b->bodies[k].name);
@@ -122,7 +126,7 @@ static void layout_is_what_the_header_says(void **state)
             assert_true(offsets[0] == 1 && offsets[4] == 5);
         }
     }
-    assert_int_equal(arrays, 4 + 5 + 4 + 3);
+    assert_int_equal(arrays, 4 + 5 + 1 + 4 + 3);
     assert_true(strncmp(base + expected, "\n</AppendedData>", 16) == 0);
     assert_non_null(strstr(bytes, "NumberOfVerts=\"5\""));
     assert_non_null(strstr(bytes, "Name=\"TimeValue\""));

@@ -63,23 +63,29 @@ static void still_water_presses_on_walls(void **state)
     sb_face_loads loads;
     sb_error error = {0};
     assert_int_equal(sb_face_loads_create(&model, 0.5, &loads, &error), SB_OK);
-    assert_int_equal(loads.face_count, 6);
-    assert_int_equal(loads.triangle_count, 36);
+    assert_int_equal(loads.faces.count, 6);
+    assert_int_equal(loads.faces.all_count, 36);
     sb_face_loads_compute(&loads, frame, 20000);
     for (size_t f = 0; f < 6; f++) {
-        const sb_load_face *face = &loads.faces[f];
+        const sb_face *face = &loads.faces.list[f];
         const double width = fabs(face->normal.x) > 0.5 ? 3 : fabs(face->normal.y) > 0.5 ? 4 : 0;
         assert_int_equal(face->body, 1);
         assert_true(fabs(face->area - (width > 0 ? 7 * width : 12)) < 1e-9);
-        assert_true(fabs(face->force - 0.5 * 9810 * 25 * width) < 1e-4 * 0.5 * 9810 * 25 * 4);
+        assert_true(fabs(loads.force[f] - 0.5 * 9810 * 25 * width) < 1e-4 * 0.5 * 9810 * 25 * 4);
     }
     /* Dry faces and other bodies keep their colour; a wall's mean pressure is 17.5 kPa. */
     for (size_t c = 0; c < 108; c++) {
-        const uint32_t f = loads.face[c / 3];
-        const bool tinted = f != UINT32_MAX && fabs(loads.faces[f].normal.z) < 0.5;
+        const uint32_t f = loads.faces.of[c / 3];
+        const bool tinted = f != UINT32_MAX && fabs(loads.faces.list[f].normal.z) < 0.5;
         assert_true((memcmp(loads.paint[c], loads.colors[c], 4) != 0) == tinted);
         assert_true((f == UINT32_MAX) == (c < 36 || c >= 72));
     }
+    /* Loads of the frame count instead of those of the particles. */
+    assert_true(sb_frame_add_faces(frame, 6));
+    for (size_t f = 0; f < 6; f++) frame->face_pressure[f] = 100 * (float)(f + 1);
+    sb_face_loads_compute(&loads, frame, 20000);
+    for (size_t f = 0; f < 6; f++)
+        assert_true(fabs(loads.force[f] - 100.0 * (double)(f + 1) * loads.faces.list[f].area) < 1e-6);
     sb_face_loads_free(&loads);
     sb_frame_release(frame);
     for (int b = 0; b < 3; b++) {

@@ -45,8 +45,8 @@ static bool is_near(const sb_pushes *pushes, size_t body, sb_vec3 at)
 
 void sb_pushes_add(sb_pushes *pushes, const sb_wall_push *push)
 {
-    if (!pushes->wanted[push->body] || sb_dot(push->force, push->force) == 0 || !is_near(pushes, push->body, push->at))
-        return;
+    if (!pushes->wanted[push->body] || sb_dot(push->force, push->force) == 0) return;
+    if (!pushes->whole[push->body] && !is_near(pushes, push->body, push->at)) return;
 #pragma omp critical(sb_pushes)
     {
         if (sb_grow((void **)&pushes->list, &pushes->capacity, pushes->count + 1, sizeof *pushes->list) != 0)
@@ -89,6 +89,7 @@ void sb_pushes_destroy(sb_pushes *pushes)
     if (!pushes) return;
     sb_free(pushes->places);
     sb_free(pushes->wanted);
+    sb_free(pushes->whole);
     sb_free(pushes->list);
     sb_free(pushes);
 }
@@ -100,7 +101,8 @@ static sb_pushes *create(const sb_sim *sim, const sb_push_place *places, size_t 
     if (!made) return NULL;
     made->places = sb_alloc(count, sizeof *made->places);
     made->wanted = sb_alloc(sim->model->body_count, sizeof *made->wanted);
-    if (!made->places || !made->wanted) {
+    made->whole = sb_alloc(sim->model->body_count, sizeof *made->whole);
+    if (!made->places || !made->wanted || !made->whole) {
         sb_pushes_destroy(made);
         return NULL;
     }
@@ -108,6 +110,7 @@ static sb_pushes *create(const sb_sim *sim, const sb_push_place *places, size_t 
     for (size_t p = 0; p < count; p++) {
         made->places[p] = places[p];
         made->wanted[places[p].body] = true;
+        made->whole[places[p].body] |= isinf(places[p].range);
     }
     made->period =
         sb_vec((double)sim->space.period[0] * sim->space.quantum, (double)sim->space.period[1] * sim->space.quantum, 0);

@@ -8,7 +8,8 @@
 typedef struct sb_pushes {
     size_t place_count;
     sb_push_place *places;
-    bool *wanted;   /* per body */
+    bool *wanted;   /* per body: there is a place on it, */
+    bool *whole;    /* and one that is everywhere */
     sb_vec3 period; /* m; 0: the domain does not repeat */
     size_t count, capacity;
     sb_wall_push *list; /* of the last step, in an order that depends on timing */
