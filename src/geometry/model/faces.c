@@ -176,11 +176,15 @@ static sb_status make_grid(sb_faces *faces, double spacing, double reach, sb_err
 sb_status sb_faces_make(const sb_model *model, double spacing, double reach, sb_faces *faces, sb_error *error)
 {
     sb_faces made = {.body_count = model->body_count};
-    for (size_t b = 0; b < model->body_count; b++) made.all_count += model->bodies[b].mesh.triangle_count;
-    plane_key *keys = sb_alloc(made.all_count, sizeof *keys);
-    made.list = sb_alloc(made.all_count, sizeof *made.list);
-    made.of = sb_alloc(made.all_count, sizeof *made.of);
-    made.triangles = sb_alloc(made.all_count, sizeof *made.triangles);
+    for (size_t b = 0; b < model->body_count; b++) {
+        const size_t triangles = model->bodies[b].mesh.triangle_count;
+        made.all_count += triangles;
+        made.capacity += has_faces(&model->bodies[b]) ? triangles : 0;
+    }
+    plane_key *keys = sb_alloc(made.capacity, sizeof *keys);
+    made.list = sb_alloc(made.capacity, sizeof *made.list);
+    made.of = sb_alloc_untouched(made.all_count, sizeof *made.of);
+    made.triangles = sb_alloc(made.capacity, sizeof *made.triangles);
     made.first = sb_alloc(model->body_count + 1, sizeof *made.first);
     made.grid = sb_alloc(1, sizeof *made.grid);
     sb_status status = SB_OK;
@@ -222,7 +226,8 @@ size_t sb_faces_bytes(const sb_faces *faces)
     const struct sb_face_grid *g = faces->grid;
     const size_t grid =
         g ? sizeof *g + g->capacity * sizeof *g->entries + g->count * (sizeof *g->triangles + sizeof *g->from) : 0;
-    return grid + faces->all_count * (sizeof *faces->list + sizeof *faces->of + sizeof *faces->triangles) +
+    return grid + faces->capacity * (sizeof *faces->list + sizeof *faces->triangles) +
+           faces->all_count * sizeof *faces->of +
            (faces->body_count + 1) * sizeof *faces->first;
 }
 

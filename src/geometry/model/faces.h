@@ -22,6 +22,7 @@ typedef struct sb_faces {
     size_t triangle_count;       /* of these faces */
     sb_face_triangle *triangles; /* those of one face follow each other */
     size_t body_count, *first;   /* per body: its first triangle of these; first[body_count]: triangle_count */
+    size_t capacity;             /* triangles of the bodies with faces */
     size_t all_count;            /* triangles of all bodies */
     uint32_t *of;                /* per triangle of all bodies: its face; UINT32_MAX: of a body without faces */
     struct sb_face_grid *grid;

@@ -3,6 +3,7 @@
 #include "geometry/sampling/parts.h"
 
 #include "base/memory.h"
+#include "base/sets.h"
 #include "geometry/mesh/edges.h"
 
 #include <stdlib.h>
@@ -84,26 +85,6 @@ static void orient(sb_surface *surface, const sb_mesh_edges *list, double spacin
     }
 }
 
-static uint32_t find_root(uint32_t *parent, uint32_t i)
-{
-    while (parent[i] != i) {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    return i;
-}
-
-/* The smaller number stays the root, so that a set is numbered by its first triangle. */
-static void unite(uint32_t *parent, uint32_t a, uint32_t b)
-{
-    a = find_root(parent, a);
-    b = find_root(parent, b);
-    if (a < b)
-        parent[b] = a;
-    else
-        parent[a] = b;
-}
-
 /* Whether an edge is concave: the corner of the triangle opposite to the edge is above the other face's plane, so
    the water lies in the smaller angle between the faces. */
 static bool is_concave(const sb_surface *surface, const sb_mesh_edge *e, const sb_mesh_edge *other)
@@ -127,7 +108,7 @@ static void join_planes(sb_surface *surface, const sb_mesh_edge *edge, const sb_
     for (const sb_mesh_edge *one = edge; one < end; ++one)
         for (const sb_mesh_edge *other = one + 1; other < end; ++other)
             if (sb_dot(surface->normal[one->triangle], surface->normal[other->triangle]) > same_plane)
-                unite(surface->region, one->triangle, other->triangle);
+                sb_sets_join(surface->region, one->triangle, other->triangle);
 }
 
 /* Adds convex edges between any two of the faces that meet in [edge, end). */
@@ -174,7 +155,7 @@ static int join_faces(sb_surface *surface, const sb_mesh_edges *list, const sb_s
         surface->creases[surface->crease_count++] =
             (sb_crease){mesh->vertices[edges[i].low], mesh->vertices[edges[i].high], {first, second}};
     }
-    for (uint32_t t = 0; t < mesh->triangle_count; ++t) surface->region[t] = find_root(surface->region, t);
+    for (uint32_t t = 0; t < mesh->triangle_count; ++t) surface->region[t] = sb_sets_root(surface->region, t);
     return 0;
 }
 

@@ -1,8 +1,8 @@
 /* What crosses the outer edge of a strip. Each column of the edge has rows of particles; a row counts the water that
    has come in through it until now, in particles, less the particles that have come in, or plus those that have left.
-   It lets one in when half a particle is owed, at the place to which its water has come: water that turns round brings
-   back a particle where one has left. The volume that comes in is that of the given velocity, and nothing else: the
-   strip's content is not controlled (docs/decisions/0084). */
+   It lets one in when half a particle is owed, or from 0 on where no other is near, at the place to which its water has
+   come: water that turns round brings back a particle where one has left. The volume that comes in is that of the given velocity, and nothing else: the
+   strip's content is not controlled (docs/decisions/0084). What is owed to a column that falls dry is dropped. */
 #include "base/memory.h"
 #include "sim/exchange/domains.h"
 #include "sim/sea/strip.h"
@@ -220,7 +220,7 @@ typedef struct column_now {
     sb_vec3 spacing;   /* m, the same along each axis */
 } column_now;
 
-/* Lets a particle into a row if it owes half of one, and if there is room. */
+/* Lets a particle into a row if it owes half of one and there is room, or if it owes none and there is much. */
 static sb_status fill_row(sb_sim *sim, const column_now *c, edge *near, int row, sb_error *error)
 {
     double *owed = &c->s->owed[c->index * c->s->rows + (size_t)row];
