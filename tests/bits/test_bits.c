@@ -26,7 +26,7 @@ static const struct {
 } scenes[] = {
     {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0x620ebd044111b189,
      0x52690d3339122ee0},
-    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0x76c96ada8590e5f0, 0x47c46307b510398b},
+    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0xdeb2de5b34af2ae7, 0x2020ce8a69a8098e},
 };
 
 static const char settle[] = "numerics.settle_steps=20";
