@@ -235,6 +235,7 @@ static sb_columns lay_out(const sb_scene *scene, const sb_fluid_box *box)
         c.velocity = box->velocity;
     }
     c.waves = !box || !scene->sea.present;
+    c.sea = !box;
     c.x = min.x;
     c.y = scene->dimensions == 2 ? 0 : min.y;
     c.bottom = min.z;

@@ -22,8 +22,7 @@ static int front_push(front *f, size_t column, size_t run)
     return 0;
 }
 
-/* Whether some layer connects run a, whose cells hold the bit of this step, with run b. */
-static bool joined(const sb_columns *c, const sb_run *a, const sb_run *b, uint8_t bit)
+bool sb_columns_joined(const sb_columns *c, const sb_run *a, const sb_run *b, uint8_t bit)
 {
     int32_t low = a->first > b->first ? a->first : b->first;
     int32_t high_a = a->first + a->count, high_b = b->first + b->count;
@@ -40,7 +39,7 @@ static int spread(sb_columns *c, front *f, size_t from, size_t to_column, bool a
     for (size_t r = c->begin[to_column]; r < c->begin[to_column + 1]; ++r) {
         sb_run *to = c->runs + r;
         const sb_run *a = c->runs + from;
-        if (to->wet || !(ahead ? joined(c, a, to, bit) : joined(c, to, a, bit))) continue;
+        if (to->wet || !(ahead ? sb_columns_joined(c, a, to, bit) : sb_columns_joined(c, to, a, bit))) continue;
         to->wet = true;
         if (front_push(f, to_column, r)) return -1;
     }

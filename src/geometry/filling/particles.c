@@ -52,12 +52,15 @@ static bool evens_out(const sb_columns *c, int64_t i, int64_t j, const sb_run *r
     return most > 0.04 * c->spacing && most < 0.26 * c->spacing;
 }
 
-static size_t layers_of(const sb_columns *c, int64_t i, int64_t j, const sb_run *run)
+/* *extent: of a run that is wet. */
+static size_t layers_of(const sb_columns *c, int64_t i, int64_t j, const sb_run *run, sb_run_extent *extent)
 {
     double height = run->high - run->low, s = c->spacing;
     if (!run->wet || height < film * s) return 0;
     double particles = c->scene->dimensions == 2 ? height * c->dx / (s * s) : height * c->dx * c->dy / (s * s * s);
-    return (size_t)floor(particles + (evens_out(c, i, j, run) ? 0.5 : threshold(c, i, j)));
+    *extent = sb_columns_extent(c, i, j, run);
+    const bool even = extent->part == 1 && evens_out(c, i, j, run);
+    return (size_t)floor(particles * extent->part + (even ? 0.5 : threshold(c, i, j)));
 }
 
 /* Finds the part of a run that has open water on all four sides, where particles need no check of their distance to
@@ -109,8 +112,8 @@ static sb_vec3 velocity_at(const sb_columns *c, sb_vec3 at)
 }
 
 /* Places the particles of a run that belong to the fluid's part. at: index of the first one. */
-static void fill_run(const sb_columns *c, int64_t i, int64_t j, const sb_run *run, size_t layers, size_t at,
-                     sb_fluid *fluid)
+static void fill_run(const sb_columns *c, int64_t i, int64_t j, const sb_run *run, size_t layers, sb_vec3 shift,
+                     size_t at, sb_fluid *fluid)
 {
     double step = (run->high - run->low) / (double)layers, low, high;
     double margin = clearance * c->spacing;
@@ -118,7 +121,7 @@ static void fill_run(const sb_columns *c, int64_t i, int64_t j, const sb_run *ru
     open_part(c, i, j, run, &low, &high);
     for (size_t k = 0; k < layers; ++k, ++at) {
         if (at < fluid->from || at - fluid->from >= fluid->here) continue;
-        sb_vec3 p = sb_columns_center(c, i, j, 0);
+        sb_vec3 p = sb_add(sb_columns_center(c, i, j, 0), shift);
         p.z = run->low + ((double)k + 0.5) * step;
         if (!(p.z - margin > low && p.z + margin < high)) p = keep_clear(c, p);
         const size_t to = at - fluid->from;
@@ -146,8 +149,9 @@ static sb_status place(const sb_columns *c, const size_t *first, sb_fluid *fluid
         size_t at = first[column];
         if (at >= end || first[column + 1] <= fluid->from) continue;
         for (size_t r = c->begin[column]; r < c->begin[column + 1] && !sb_stop_signal(); ++r) {
-            size_t layers = layers_of(c, i, j, c->runs + r);
-            if (layers > 0) fill_run(c, i, j, c->runs + r, layers, at, fluid);
+            sb_run_extent extent;
+            size_t layers = layers_of(c, i, j, c->runs + r, &extent);
+            if (layers > 0) fill_run(c, i, j, c->runs + r, layers, extent.shift, at, fluid);
             at += layers;
         }
     }
@@ -163,7 +167,8 @@ sb_status sb_columns_count(const sb_columns *c, size_t **first, double *still_de
         made[column] = count;
         for (size_t r = c->begin[column]; r < c->begin[column + 1]; ++r) {
             const sb_run *run = c->runs + r;
-            count += layers_of(c, (int64_t)column % c->nx, (int64_t)column / c->nx, run);
+            sb_run_extent extent;
+            count += layers_of(c, (int64_t)column % c->nx, (int64_t)column / c->nx, run, &extent);
             if (run->wet) *still_depth = fmax(*still_depth, c->level - run->low);
         }
     }

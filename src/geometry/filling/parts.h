@@ -27,6 +27,7 @@ typedef struct sb_columns {
     double bottom, base, level, top; /* m; there is no water above top */
     int32_t layers;
     bool waves;       /* the scene's initial wave shapes this water */
+    bool sea;         /* it is the sea, not a box */
     sb_vec3 velocity; /* m/s */
     size_t *begin;    /* nx * ny + 1: first run of each column; its runs are sorted from below */
     size_t run_count, cell_count;
@@ -58,6 +59,20 @@ bool sb_columns_clear(const sb_columns *columns, sb_vec3 from, sb_vec3 to);
 
 /* Marks the runs that are connected with the sea's seed as wet. */
 sb_status sb_columns_flood(sb_columns *columns, sb_error *error);
+
+/* Whether some layer connects a run, whose cells hold the bit of this step (SB_CELL_BLOCK_X, ..), with one of the next
+   column. */
+bool sb_columns_joined(const sb_columns *columns, const sb_run *run, const sb_run *next, uint8_t bit);
+
+/* The water of a wet run: its area over that of a column, and the distance (m) from the column's axis to its middle.
+   part: 1 and shift: 0 away from walls, and in boxes, which do not come to rest before t = 0. Areas are those between
+   the column's axis and the walls beside it: over a whole wall they add up to the water's. Call it after the runs are
+   marked. */
+typedef struct sb_run_extent {
+    double part;
+    sb_vec3 shift;
+} sb_run_extent;
+sb_run_extent sb_columns_extent(const sb_columns *columns, int64_t i, int64_t j, const sb_run *run);
 
 /* Adds the part of the scene's initial solitary wave that these columns contain. Call it after their runs are
    marked. */

@@ -169,6 +169,21 @@ static void solids_displace_water(void **state)
     }
 }
 
+/* Straight walls anywhere between two rows of columns. */
+static void walls_between_columns_keep_volume(void **state)
+{
+    (void)state;
+    static const double faces[] = {0.05, 0.13, 0.2, 0.32, 0.41};
+    for (int k = 0; k < 5; k++) {
+        const double face = faces[k], other = 18.9 + face * face;
+        scene.body_count = 0;
+        add_box("low", sb_vec(-1, -1, -1), sb_vec(face, 11, 9));
+        add_box("high", sb_vec(other, -1, -1), sb_vec(21, 11, 9));
+        build();
+        volume_within((other - face) * 10 * 4, 0.002);
+    }
+}
+
 static void a_wedge_over_a_slope_has_its_volume(void **state)
 {
     (void)state;
@@ -375,6 +390,7 @@ int main(void)
         CASE(odd_levels_keep_volume_and_surface),
         CASE(odd_walls_keep_volume),
         CASE(solids_displace_water),
+        CASE(walls_between_columns_keep_volume),
         CASE(a_wedge_over_a_slope_has_its_volume),
         CASE(a_basin_and_a_round_pool),
         CASE(a_wall_thinner_than_a_cell_holds_the_sea),
