@@ -46,9 +46,10 @@ static void warn_of_loads(const job *j, const sb_frame *frame)
     const sb_scene *scene = j->pictures->scene;
     if (!scene->render.loads || frame->face_count > 0 || *j->told_loads) return;
     if (frame->status.time < scene->measure.interval) return;
-    j->warn("render.loads: the particle files have no loads of faces: their run was made without render.loads, or by an "
-            "earlier version; the colours show the pressure next to the walls instead, which is too low in impacts. Run "
-            "with render.loads for the forces themselves");
+    j->warn(
+        "render.loads: the particle files have no loads of faces: their run was made without render.loads, or by an "
+        "earlier version; the colours show the pressure next to the walls instead, which is too low in impacts. Run "
+        "with render.loads for the forces themselves");
     *j->told_loads = true;
 }
 

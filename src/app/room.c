@@ -12,9 +12,10 @@ static const double IMPULSE_BYTES = 9 * 8 / 1024.0; /* per particle and body: ni
 static const double PROGRAM_BYTES = 1e7, GRAPHICS_BYTES = 5e7, FLUID_BYTES = 166, PAIR_BYTES = 4.3, GHOST_BYTES = 90,
                     STEADY_BYTES = 24, TENSION_BYTES = 16;
 
-/* Per pixel of a picture: two layers of water at 16 bytes, colour, depth, the pixels that are read back, their kinds, the
-   depths of the bodies, and the rows that are written, plain and packed. Per node of the two grids in which pictures find the surface: nodes are 1.5 spacings apart, or farther
-   where there would be too many; the arrays grow by doubling. Per cell of a map. */
+/* Per pixel of a picture: two layers of water at 16 bytes, colour, depth, the pixels that are read back, their kinds,
+   the depths of the bodies, and the rows that are written, plain and packed. Per node of the two grids in which
+   pictures find the surface: nodes are 1.5 spacings apart, or farther where there would be too many; the arrays grow by
+   doubling. Per cell of a map. */
 static const double PIXEL_BYTES = 61, NODE_BYTES = 16, NODE_SPACINGS = 1.5, NODES_MAX = 2.5e7, MAP_CELL_BYTES = 36;
 
 /* The part of FLUID_BYTES that is the model, and the model per boundary particle. */

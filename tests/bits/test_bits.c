@@ -24,9 +24,9 @@ static const struct {
     const char *name, *file, *resolution;
     uint64_t fused, plain;
 } scenes[] = {
-    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0x620ebd044111b189,
-     0x52690d3339122ee0},
-    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0xb15e07bf71042e79, 0x40b374c742881e04},
+    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0xe94d58d02a123aed,
+     0x6d14126086804d25},
+    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0x9f309743c7106cc9, 0x76ef8c68a5c37057},
 };
 
 static const char settle[] = "numerics.settle_steps=20";

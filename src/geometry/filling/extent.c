@@ -1,14 +1,15 @@
-/* How far the water of a column reaches. A column whose centre is free counts as water in its whole width elsewhere, and
-   one whose centre is in a body as none. Along a wall that stands between two rows of columns that would be up to half a
-   column too much or too little water, which runs off as a wave when the water comes to rest (docs/decisions/0080). */
+/* How far the water of a column reaches. A column whose centre is free counts as water in its whole width elsewhere,
+   and one whose centre is in a body as none. Along a wall that stands between two rows of columns that would be up to
+   half a column too much or too little water, which runs off as a wave when the water comes to rest
+   (docs/decisions/0080). */
 #include "geometry/filling/parts.h"
 
 /* A distance that differs from half a column by less, in columns, is half a column: the wall stands where two columns
    meet. */
 static const double same_place = 1e-9;
 
-/* Mean over the layers of a run of the distance from the column's axis to a surface, at most `limit`; half of a column's
-   width `step` if no surface is so near. */
+/* Mean over the layers of a run of the distance from the column's axis to a surface, at most `limit`; half of a
+   column's width `step` if no surface is so near. */
 static double reach(const sb_columns *c, int64_t i, int64_t j, const sb_run *run, sb_vec3 direction, double step,
                     double limit)
 {

@@ -227,8 +227,7 @@ size_t sb_faces_bytes(const sb_faces *faces)
     const size_t grid =
         g ? sizeof *g + g->capacity * sizeof *g->entries + g->count * (sizeof *g->triangles + sizeof *g->from) : 0;
     return grid + faces->capacity * (sizeof *faces->list + sizeof *faces->triangles) +
-           faces->all_count * sizeof *faces->of +
-           (faces->body_count + 1) * sizeof *faces->first;
+           faces->all_count * sizeof *faces->of + (faces->body_count + 1) * sizeof *faces->first;
 }
 
 /* ---- places ---- */

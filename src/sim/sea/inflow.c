@@ -1,8 +1,9 @@
 /* What crosses the outer edge of a strip. Each column of the edge has rows of particles; a row counts the water that
    has come in through it until now, in particles, less the particles that have come in, or plus those that have left.
    It lets one in when half a particle is owed, or from 0 on where no other is near, at the place to which its water has
-   come: water that turns round brings back a particle where one has left. The volume that comes in is that of the given velocity, and nothing else: the
-   strip's content is not controlled (docs/decisions/0084). What is owed to a column that falls dry is dropped. */
+   come: water that turns round brings back a particle where one has left. The volume that comes in is that of the given
+   velocity, and nothing else: the strip's content is not controlled (docs/decisions/0084). What is owed to a column
+   that falls dry is dropped. */
 #include "base/memory.h"
 #include "sim/exchange/domains.h"
 #include "sim/sea/strip.h"
