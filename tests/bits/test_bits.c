@@ -24,9 +24,9 @@ static const struct {
     const char *name, *file, *resolution;
     uint64_t fused, plain;
 } scenes[] = {
-    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0xe94d58d02a123aed,
-     0x6d14126086804d25},
-    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0x9f309743c7106cc9, 0x76ef8c68a5c37057},
+    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0x837660d9e9b63f1d,
+     0xd0b183adb2019665},
+    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0xc6e19df568e24c9c, 0x7410cb4ff62a649d},
 };
 
 static const char settle[] = "numerics.settle_steps=20";

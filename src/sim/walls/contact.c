@@ -10,8 +10,8 @@
    towards the water, a particle may be beyond both; so far each facet counts as longer there. */
 static const float NEAREST = 0.1f, PASSED = 0.2f, BEYOND = 0.3f;
 
-/* In spacings: the round-off of distances that are compared. */
-static const float ROUGH = 1e-3f;
+/* In spacings: the round-off of distances. Smaller pushes are none: they would use up the pushes of a step. */
+static const float ROUGH = 1e-5f;
 
 /* A particle and its way in this step. Lengths in quanta. */
 typedef struct mover {
@@ -118,7 +118,7 @@ static bool try_edge(const sb_sim *sim, const mover *m, const sb_group_plane *to
     const approach start = approach_of(sim, m, from);
     const float least = start.before < nearest ? start.before : nearest, falls = start.before - start.after;
     const float needed = (least - end.after) / sb_sum3(from->plane * to->plane), push = needed < falls ? needed : falls;
-    if (!(push > 0)) return false;
+    if (!(push > ROUGH * m->spacing)) return false;
     take((sb_facet_contact){from->plane * (sb_f4){1, 1, 1, 0}, push, from->mirror}, found, contact);
     return true;
 }
@@ -137,7 +137,8 @@ static void try_facet(const sb_sim *sim, const mover *m, uint32_t index, sb_f4 p
     const float nearest = NEAREST * m->spacing;
     const float least = before + m->release < nearest ? before + m->release : nearest;
     const float push = least - after;
-    if (!(push > 0) || before < -PASSED * m->spacing || (*found && push >= fabsf(contact->push))) return;
+    if (!(push > ROUGH * m->spacing) || before < -PASSED * m->spacing) return;
+    if (*found && push >= fabsf(contact->push)) return;
     if (!above_facet(sim, mirror, place_of(m, m->self + m->velocity * sb_splat(m->to_quanta)))) return;
     take((sb_facet_contact){plane * (sb_f4){1, 1, 1, 0}, side * push, index}, found, contact);
 }

@@ -245,6 +245,41 @@ static void a_floor_does_not_hide_a_wall(void **state)
     for (size_t k = 0; k < sizeof leans / sizeof *leans; k++) check_face(leans[k]);
 }
 
+/* ---- behind an edge ---- */
+
+enum { HELD_STEPS = 200 };
+
+/* Particles that have got a little behind the three faces at a corner of a box, and are pressed on it. They do not sink
+   deeper: faces that they only slide along leave contact with the others possible. */
+static void particles_behind_a_corner_do_not_sink(void **state)
+{
+    (void)state;
+    basin b;
+    basin_fill(&b, 3, "1", "[30, 30, 24]", "{boxes: [{min: [1, 1, 1], max: [7, 5, 5]}]}",
+               "[{name: block, shape: box, min: [15, 15, 0], max: [40, 40, 10]}]", "completed");
+    sb_sim *sim = b.sim;
+    for (size_t i = 0; i < sim->state.n; i++)
+        sim->state.position[i] = sb_space_record(
+            &sim->space, sb_vec(15 + 0.15 * sb_random(1, i), 15 + 0.15 * sb_random(2, i), 10 - 0.15 * sb_random(3, i)));
+    for (int step = 0; step < HELD_STEPS; step++) {
+        assert_int_equal(tank_prepare(sim, 1), 0);
+        for (size_t g = 0; g < sim->groups.count; g++)
+            for (size_t i = sim->groups.group[g].first; i < sim->groups.group[g].end; i++) {
+                const uint64_t k = (uint64_t)step * 1000 + i;
+                const sb_f4 start = {(float)(0.02 * sb_random(4, k)), (float)(0.02 * sb_random(5, k)), -0.3f, 0};
+                size_t count;
+                sb_f4 given = {0};
+                const sb_f4 v = resolved(sim, &sim->groups.group[g], i, start, &count, &given);
+                const sb_vec3 at = sb_sim_particle(sim, i).position;
+                const sb_vec3 end = sb_add(at, sb_vec((double)v[0], (double)v[1], (double)v[2]));
+                sim->state.position[i] = sb_space_record(&sim->space, end);
+                if (end.z < 10 - 0.16 || end.x > 15.16 || end.y > 15.16)
+                    fail_msg("step %d: at (%g, %g, %g)", step, end.x, end.y, end.z);
+            }
+    }
+    basin_free(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -252,6 +287,7 @@ int main(void)
         cmocka_unit_test(approaching_particles_are_stopped_without_energy_gain),
         cmocka_unit_test(particles_follow_a_convex_surface),
         cmocka_unit_test(a_floor_does_not_hide_a_wall),
+        cmocka_unit_test(particles_behind_a_corner_do_not_sink),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

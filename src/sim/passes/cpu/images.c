@@ -212,7 +212,7 @@ void sb_list_images(sb_list_builder *lists, const sb_vicinity *v, sb_images_arou
     group->image = (uint32_t)lists->images;
     group->plane = (uint32_t)lists->planes;
     group->images = group->planes = 0;
-    if (v->images == 0 || lists->out_of_memory) return;
+    if (!images || lists->out_of_memory) return;
     const uint32_t used = images->used;
     const size_t planes = images->near.count;
     if (sb_grow((void **)&lists->image, &lists->capacity_image, lists->images + used, sizeof *lists->image) != 0 ||

@@ -64,7 +64,8 @@ void sb_images_weigh_direct(const sb_sim *sim, sb_images_around *images, sb_f4 s
 /* Gives the hits of images the candidates that they have in lists, which refer only to images in use. */
 void sb_images_number(const sb_vicinity *v, sb_images_around *images, sb_hits *hits);
 
-/* Appends those images that the lists of the group refer to, and their planes. */
+/* Appends those images that the lists of the group refer to, and the planes of all facets near it, at which contact is
+   resolved. images: NULL without images. */
 void sb_list_images(sb_list_builder *lists, const sb_vicinity *v, sb_images_around *images, sb_group *group);
 
 #endif

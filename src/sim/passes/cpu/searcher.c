@@ -205,7 +205,7 @@ unsigned sb_search_group(sb_sim *sim, void *of, sb_list_builder *lists, sb_group
         return SB_FULL_FACETS | SB_CROWDED;
     sb_list_runs(lists, &w->vicinity, group);
     search_group(sim, w, lists, group);
-    sb_list_images(lists, &w->vicinity, &w->images, group);
+    sb_list_images(lists, &w->vicinity, sim->needs.images ? &w->images : NULL, group);
     return w->full;
 }
 
