@@ -58,7 +58,7 @@ static void still_water_presses_on_walls(void **state)
     make_box(&list[0].mesh, sb_vec(-6, -6, -1), sb_vec(6, 6, 0));
     make_box(&list[1].mesh, low, high);
     make_box(&list[2].mesh, sb_vec(-7, -6, 0), sb_vec(-6, 6, 6));
-    const sb_model model = {.bodies = list, .body_count = 3};
+    const sb_model model = {.min = {-50, -50, -50}, .max = {50, 50, 50}, .bodies = list, .body_count = 3};
     sb_frame *frame = water(low, high);
     sb_face_loads loads;
     sb_error error = {0};

@@ -120,13 +120,15 @@ static int32_t cell_of(double x, double spacing)
     return (int32_t)fmin(fmax(floor(x / (2 * spacing)), -1e9), 1e9);
 }
 
-/* Adds the cells of which a point may be at most `reach` away from a triangle. */
-static sb_status add_cells(struct sb_face_grid *grid, const sb_face_triangle *t, uint32_t number, sb_error *error)
+/* Adds the cells in the domain, or `reach` beyond it, of which a point may be at most `reach` away from a triangle. */
+static sb_status add_cells(struct sb_face_grid *grid, const sb_model *model, const sb_face_triangle *t, uint32_t number,
+                           sb_error *error)
 {
     const double s = grid->spacing, most = grid->reach + s * sqrt(3);
     const sb_vec3 around = sb_vec(grid->reach, grid->reach, grid->reach);
-    const sb_vec3 low = sb_sub(sb_min(sb_min(t->corner[0], t->corner[1]), t->corner[2]), around);
-    const sb_vec3 high = sb_add(sb_max(sb_max(t->corner[0], t->corner[1]), t->corner[2]), around);
+    const sb_vec3 first = sb_min(sb_min(t->corner[0], t->corner[1]), t->corner[2]);
+    const sb_vec3 last = sb_max(sb_max(t->corner[0], t->corner[1]), t->corner[2]);
+    const sb_vec3 low = sb_sub(sb_max(first, model->min), around), high = sb_add(sb_min(last, model->max), around);
     grid->low = sb_min(grid->low, low);
     grid->high = sb_max(grid->high, high);
     for (int32_t z = cell_of(low.z, s); z <= cell_of(high.z, s); z++)
@@ -160,7 +162,7 @@ static sb_status sort_cells(struct sb_face_grid *grid, sb_error *error)
     return SB_OK;
 }
 
-static sb_status make_grid(sb_faces *faces, double spacing, double reach, sb_error *error)
+static sb_status make_grid(sb_faces *faces, const sb_model *model, double spacing, double reach, sb_error *error)
 {
     struct sb_face_grid *grid = faces->grid;
     grid->spacing = spacing;
@@ -169,7 +171,7 @@ static sb_status make_grid(sb_faces *faces, double spacing, double reach, sb_err
     grid->high = sb_scale(grid->low, -1);
     sb_status status = SB_OK;
     for (size_t t = 0; status == SB_OK && t < faces->triangle_count; t++)
-        status = add_cells(grid, &faces->triangles[t], (uint32_t)t, error);
+        status = add_cells(grid, model, &faces->triangles[t], (uint32_t)t, error);
     return status == SB_OK ? sort_cells(grid, error) : status;
 }
 
@@ -196,7 +198,7 @@ sb_status sb_faces_make(const sb_model *model, double spacing, double reach, sb_
     const size_t count = find_keys(model, spacing, keys);
     if (count > 0) qsort(keys, count, sizeof *keys, by_plane);
     fill_faces(&made, model, keys, count);
-    status = make_grid(&made, spacing, reach, error);
+    status = make_grid(&made, model, spacing, reach, error);
 done:
     sb_free(keys);
     if (status == SB_OK)
