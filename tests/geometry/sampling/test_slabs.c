@@ -162,11 +162,44 @@ static void slabs_are_as_good_as_the_whole(void **state)
     }
 }
 
+/* Voids are filled row after row of each slab; rows are shorter here than in the program. A range of slabs is still a
+   part of the whole, and the rules of distances hold where rows meet. */
+static void rows_are_as_good_as_one(void **state)
+{
+    (void)state;
+    s.count = 1;
+    s.role = SB_ROLE_TERRAIN;
+    test_hills(42, 3, 0.3, 0.3, &s.mesh[0]);
+    for (size_t i = 0; i < s.mesh[0].vertex_count; ++i) {
+        s.mesh[0].vertices[i].x *= 170.0 / 42;
+        s.mesh[0].vertices[i].y *= 100.0 / 42;
+    }
+    sb_sampler sampler = sampler_of(0.6);
+    found whole = {.count = 0}, part = {.count = 0};
+    sampler.rows.width = 32 * s.settings.spacing;
+    sampler.rows.count = 3;
+    assert_int_equal(sb_slabs_sample(&sampler, 0, sampler.slabs.count, collect, &whole), 0);
+    assert_int_equal(sb_slabs_sample(&sampler, 4, 6, collect, &part), 0);
+    size_t at = 0;
+    for (size_t i = 0; i < whole.count; ++i) {
+        if (whole.sample[i].slab < 4 || whole.sample[i].slab >= 6) continue;
+        assert_true(at < part.count);
+        assert_memory_equal(&part.sample[at++], &whole.sample[i], sizeof *whole.sample);
+    }
+    assert_true(at == part.count && at > 1000);
+    const test_rules rules = check(&whole);
+    print_message("%zu particles, farthest %.4f\n", whole.count, rules.farthest);
+    sb_free(whole.sample);
+    sb_free(part.sample);
+    sampler_free(&sampler);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(ranges_are_parts_of_the_whole, tear_down),
         cmocka_unit_test_teardown(slabs_are_as_good_as_the_whole, tear_down),
+        cmocka_unit_test_teardown(rows_are_as_good_as_one, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
