@@ -101,8 +101,8 @@ static void take(sb_facet_contact made, bool *found, sb_facet_contact *contact)
 
 /* Takes the contact of a particle that comes round an edge, from before a facet to one to whose plane it is nearer at
    the start, or behind which it starts. It is pushed along the normal of the facet that it leaves, which takes energy
-   from it, as far as it needs to stay as far before the surface as it was, at most `nearest`. Returns whether the
-   particle comes so. */
+   from it, as far as it needs to stay as far before the surface as it was, at most NEAREST. Returns whether it comes so
+   and needs that push; if it does not, try_facet decides. */
 static bool try_edge(const sb_sim *sim, const mover *m, const sb_group_plane *to, planes near, bool *found,
                      sb_facet_contact *contact)
 {

@@ -24,6 +24,16 @@ static float draw(float from, float to)
     return from + (to - from) * (float)sb_random(5, draws++);
 }
 
+/* What sb_cull_begin reads of a simulation. */
+static const sb_sim *lengths(void)
+{
+    static sb_sim sim;
+    sim.constant.spacing = SPACING;
+    sim.constant.support = SUPPORT;
+    sim.space.quantum = 1;
+    return &sim;
+}
+
 static sb_f4 unit(sb_f4 v)
 {
     return v * sb_splat(1 / sqrtf(sb_sum3(v * v)));
@@ -73,10 +83,6 @@ static float weight(sb_f4 self, sb_f4 source)
 static void what_is_left_out_has_no_weight(void **state)
 {
     (void)state;
-    static sb_sim sim;
-    sim.constant.spacing = SPACING;
-    sim.constant.support = SUPPORT;
-    sim.space.quantum = 1;
     size_t beyond = 0, whole = 0, weighed = 0, pairs = 0;
     for (int trial = 0; trial < TRIALS; trial++) {
         make_facet();
@@ -87,7 +93,7 @@ static void what_is_left_out_has_no_weight(void **state)
         const sb_f4 cell = {EDGE * floorf(draw(0, 4)), EDGE * floorf(draw(0, 4)), EDGE * floorf(draw(0, 4)), 0};
         for (size_t s = 0; s < sources.count; s++)
             x[s] = cell[0] + draw(0, EDGE), y[s] = cell[1] + draw(0, EDGE), z[s] = cell[2] + draw(0, EDGE);
-        sb_cull_begin(&sim, &near, low, high, &cull);
+        sb_cull_begin(lengths(), &near, low, high, &cull);
         const bool any = sb_cull_sources(&near, &cull, &sources);
         for (size_t s = 0; s < sources.count; s++) {
             const sb_f4 source = {x[s], y[s], z[s], 0};
@@ -150,10 +156,6 @@ static float weight_of(const size_t *by, int count, sb_f4 self, sb_f4 source, sb
 static void paths_that_are_left_out_have_no_weight(void **state)
 {
     (void)state;
-    static sb_sim sim;
-    sim.constant.spacing = SPACING;
-    sim.constant.support = SUPPORT;
-    sim.space.quantum = 1;
     size_t pairs = 0, weighed = 0, missed = 0;
     for (int trial = 0; trial < 20 * TRIALS; trial++) {
         near.count = near.edge_count = 0;
@@ -161,7 +163,7 @@ static void paths_that_are_left_out_have_no_weight(void **state)
         for (int k = 0; k < FACETS_MAX; k++) add_facet();
         const sb_f4 low = {EDGE + draw(0, EDGE), EDGE + draw(0, EDGE), EDGE + draw(0, EDGE), 0};
         const sb_f4 high = low + (sb_f4){draw(0, EDGE), draw(0, EDGE), draw(0, EDGE), 0};
-        sb_cull_begin(&sim, &near, low, high, &cull);
+        sb_cull_begin(lengths(), &near, low, high, &cull);
         const sb_f4 source = particle(low - sb_splat(EDGE), high + sb_splat(EDGE));
         const int count = 2 + (int)draw(0, 2.99f);
         size_t by[FACETS_MAX];
@@ -241,10 +243,6 @@ static bool is_offered(const size_t *by, int count)
 static void routes_that_are_not_offered_have_no_weight(void **state)
 {
     (void)state;
-    static sb_sim sim;
-    sim.constant.spacing = SPACING;
-    sim.constant.support = SUPPORT;
-    sim.space.quantum = 1;
     size_t routes = 0, withheld = 0, weighed = 0;
     for (int trial = 0; trial < 20 * TRIALS; trial++) {
         near.count = near.edge_count = 0;
@@ -257,7 +255,7 @@ static void routes_that_are_not_offered_have_no_weight(void **state)
         sources = (sb_sources){.count = 1, .x = x, .y = y, .z = z};
         for (size_t a = 0; a < near.count; a++) sources.lowest[a] = INFINITY, sources.highest[a] = -INFINITY;
         x[0] = source[0], y[0] = source[1], z[0] = source[2];
-        sb_cull_begin(&sim, &near, low, high, &cull);
+        sb_cull_begin(lengths(), &near, low, high, &cull);
         if (!sb_cull_sources(&near, &cull, &sources)) continue;
         const int count = 2 + (int)draw(0, 2.99f);
         size_t by[FACETS_MAX];
