@@ -82,17 +82,31 @@ static sb_status add_part(const sb_measure_view *view, const course *c, double f
     return SB_OK;
 }
 
+/* Limits the part [*start, *end] of the line to what is within [min, max] in one direction. */
+static void clip(double place, double u, double min, double max, double *start, double *end)
+{
+    const double a = (min - place) / u, b = (max - place) / u;
+    if (u == 0) return;
+    *start = fmax(*start, fmin(a, b));
+    *end = fmin(*end, fmax(a, b));
+}
+
 /* Fills the cloud with the particles within `width` of the line from `first` on. The line is divided into parts with a
-   box each, because a single box around an oblique line could contain most of the scene. */
+   box each, because a single box around an oblique line could contain most of the scene. Far beyond the domain there
+   are none. */
 static sb_status query_along(const sb_measure_view *view, const course *c, double first, double width, sb_error *error)
 {
-    double parts = ceil((c->length - first) / (8 * width));
+    const double parts = ceil((c->length - first) / (8 * width)), beyond = 2 * width;
+    double start = first, end = c->length;
+    clip(c->ax, c->ux, view->min.x - beyond, view->max.x + beyond, &start, &end);
+    clip(c->ay, c->uy, view->min.y - beyond, view->max.y + beyond, &start, &end);
+    const double part = (c->length - first) / parts, last = fmin(ceil((end - first) / part), parts);
     sb_status status = SB_OK;
     view->cloud->count = 0;
-    for (double k = 0; status == SB_OK && k < parts; k++) {
-        double start = first + k / parts * (c->length - first);
-        double end = k + 1 < parts ? first + (k + 1) / parts * (c->length - first) : c->length;
-        status = add_part(view, c, first, start, end, width, error);
+    for (double k = floor((start - first) / part); status == SB_OK && k < last; k++) {
+        const double from = first + k / parts * (c->length - first);
+        const double to = k + 1 < parts ? first + (k + 1) / parts * (c->length - first) : c->length;
+        status = add_part(view, c, first, from, to, width, error);
     }
     return status;
 }

@@ -77,6 +77,9 @@ struct sb_table {
     sb_status (*finish)(sb_reader *reader, const sb_yaml *map, void *item);
 };
 
+/* Largest magnitude of a number of a scene. Products of larger ones are beyond what single precision has. */
+#define SB_NUMBER_LARGEST 1e12
+
 #define SB_KEY_ROWS(rows) .keys = (rows), .count = sizeof(rows) / sizeof *(rows)
 #define SB_KEY_AT(type, member) .offset = offsetof(type, member)
 #define SB_KEY_ITEMS(type, member, counter) .offset = offsetof(type, member), .count_offset = offsetof(type, counter)

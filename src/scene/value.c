@@ -64,7 +64,8 @@ static sb_status read_number(sb_reader *reader, const sb_yaml *node, const sb_ke
     double number = strtod(node->text, &end);
     if (node->text[strspn(node->text, "0123456789+-.eE")] != '\0' || *end != '\0')
         return refuse_text(reader, node, key, "is not a number");
-    if (!isfinite(number)) return refuse_text(reader, node, key, "is not finite: too large");
+    if (!(fabs(number) <= SB_NUMBER_LARGEST))
+        return refuse_text(reader, node, key, "is too large: numbers have magnitudes of at most 1e12");
     if (!in_range(key, number)) return refuse_text(reader, node, key, "is out of range");
     *value = number;
     return SB_OK;

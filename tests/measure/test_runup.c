@@ -56,6 +56,23 @@ static void a_puddle_is_not_the_runup(void **state)
     }
 }
 
+/* The ends of a line may lie far beyond the domain: its parts there are skipped, and the water is found. */
+static void a_line_may_end_far_beyond_the_domain(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        fake_world world;
+        make_world(&world, dimensions);
+        fill(&world, 0, 20, 0, 2);
+        const sb_runup_record near = read_line(&world, 10, 55), far = read_line(&world, 10, 1e12);
+        assert_true(near.front == 10 && far.front == near.front);
+        assert_true(far.place.x == near.place.x && far.place.z == near.place.z);
+        assert_true(fabs(read_line(&world, -1e12, 55).front - 1e12 - 20) < 1e-3);
+        assert_true(isnan(read_line(&world, 1e11, 1e12).front));
+        fake_world_free(&world);
+    }
+}
+
 /* Water that comes from before the line counts. A puddle that it meets belongs to the run-up from then on. */
 static void a_line_on_land_is_empty_until_the_sea_arrives(void **state)
 {
@@ -218,6 +235,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_puddle_is_not_the_runup),
+        cmocka_unit_test(a_line_may_end_far_beyond_the_domain),
         cmocka_unit_test(a_line_on_land_is_empty_until_the_sea_arrives),
         cmocka_unit_test(no_water_is_an_empty_row),
         cmocka_unit_test(a_gap_within_the_support_radius_does_not_count),

@@ -43,16 +43,20 @@ static void add_number(const walk *w, const sb_key *key, const char *path, doubl
     add_trial(w, path, text);
 }
 
-/* Adds both ends of the range. If the range has no end: the limit of a double, and 10 000 times the usual value. */
+/* Adds both ends of the range. If the range has no end: the largest number, and 10 000 times the usual value. */
 static void add_range(const walk *w, const sb_key *key, const char *path, double now, int components)
 {
     const double usual = fabs(now) > 0 ? fabs(now) : 1;
     const bool lowest = isfinite(key->min), above = key->flags & SB_KEY_ABOVE, below = key->flags & SB_KEY_BELOW;
-    add_number(w, key, path, !lowest ? -1e300 : above ? DBL_MIN : key->min, components);
+    add_number(w, key, path, !lowest ? -SB_NUMBER_LARGEST : above ? DBL_MIN : key->min, components);
     if (!lowest) add_number(w, key, path, -1e4 * usual, components);
     if (lowest && above) add_number(w, key, path, 1e-4 * usual, components);
     if (!isfinite(key->max)) add_number(w, key, path, 1e4 * usual, components);
-    add_number(w, key, path, !isfinite(key->max) ? 1e300 : below ? nextafter(key->max, 0) : key->max, components);
+    add_number(w, key, path,
+               !isfinite(key->max) ? SB_NUMBER_LARGEST
+               : below             ? nextafter(key->max, 0)
+                                   : key->max,
+               components);
 }
 
 static void add_names(const walk *w, const sb_key *key, const char *path)
