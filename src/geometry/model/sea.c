@@ -84,10 +84,17 @@ static sb_status check(const sb_scene *scene, const sb_model *model, int side, d
     return SB_OK;
 }
 
-/* The given surface at t = 0 that is farthest from the still level, as a height over it; 0 where all sides are dry. */
-static double first_height(const sb_scene *scene, const sb_model *model, const sb_sea_source *sea)
+/* Where the given surface at t = 0 is farthest from the still level. */
+typedef struct farthest {
+    double height; /* m, over the still level; 0 where all sides are dry */
+    sb_vec3 at;
+    double bed;
+    bool dry; /* the source has no water there */
+} farthest;
+
+static farthest first_height(const sb_scene *scene, const sb_model *model, const sb_sea_source *sea)
 {
-    double farthest = 0;
+    farthest found = {0};
     for (int side = 0; side < 4; side++) {
         const sb_model_sea *ground = &model->sea[side];
         for (size_t c = 0; sb_scene_given_side(scene, side) && c < ground->along; c++) {
@@ -96,10 +103,10 @@ static double first_height(const sb_scene *scene, const sb_model *model, const s
             sb_sea_point water;
             sb_sea_at(sea, 0, at.x, at.y, scene->sea.level, bed, &water);
             const double away = fmax(water.surface, bed) - fmax(scene->sea.level, bed);
-            if (fabs(away) > fabs(farthest)) farthest = away;
+            if (fabs(away) > fabs(found.height)) found = (farthest){away, at, bed, !(water.surface > bed)};
         }
     }
-    return farthest;
+    return found;
 }
 
 /* The side whose deepest ground is nearest to the depth of the theory; that depth. */
@@ -131,16 +138,28 @@ static sb_status warn_opposite(const sb_scene *scene, sb_model *model, sb_error 
     return SB_OK;
 }
 
+/* Warns of a source whose first water is not the still water. */
+static sb_status warn_first(const sb_scene *scene, const farthest *f, sb_model *model, sb_error *error)
+{
+    if (sb_scene_nested(scene) && f->dry)
+        return sb_model_warn(
+            model, error,
+            "sea: the grid has no water around (%g, %g), where the ground is at %g m, below water.level: "
+            "the water there runs out through the side; expected a smaller offshore.cell than %g m, or a "
+            "terrain that has this water",
+            f->at.x, f->at.y, f->bed, scene->offshore.cell);
+    return sb_model_warn(model, error,
+                         "sea: the given water begins %g m from the still water of water.level: a bore enters at "
+                         "once; expected another sea.start or sea.level",
+                         f->height);
+}
+
 static sb_status warn_source(const sb_scene *scene, const sb_sea_source *sea, sb_model *model, sb_error *error)
 {
     const bool still = scene->wave.kind == SB_INITIAL_NONE && scene->box_count == 0;
-    const double away = still ? first_height(scene, model, sea) : 0;
+    const farthest first = still ? first_height(scene, model, sea) : (farthest){0};
     if (sb_sea_warning(sea)) return sb_model_warn(model, error, "%s", sb_sea_warning(sea));
-    if (fabs(away) > model->spacing)
-        return sb_model_warn(model, error,
-                             "sea: the given water begins %g m from the still water of water.level: a bore enters at "
-                             "once; expected another sea.start or sea.level",
-                             away);
+    if (fabs(first.height) > model->spacing) return warn_first(scene, &first, model, error);
     if (scene->given.source == SB_GIVEN_NONE) return SB_OK;
     if (scene->given.source == SB_GIVEN_OFFSHORE) return SB_OK;
     if (scene->given.source != SB_GIVEN_THEORY) return warn_opposite(scene, model, error);
