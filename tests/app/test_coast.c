@@ -174,6 +174,8 @@ static void refusals_name_the_remedy(void **state)
     grid_sample_tiff(&survey, in_folder("survey.tif"));
     expect_refusal("file: survey.tif", "survey.tif", "the key origin is the place that becomes (0, 0)");
     expect_refusal("file: survey.tif, files: [survey.tif]", "file", "files");
+    write_text("degrees.asc", "ncols 3\nnrows 2\nxllcorner 41\nyllcorner 37\ncellsize 0.001\n-6 -6 -6\n-6 -6 -6\n");
+    expect_refusal("file: degrees.asc", "body \"coast\": its grid is 0.002 m x 0.001 m large", "give crs: EPSG:4326");
     expect_refusal("files: []", "bad.yaml", "files");
     expect_refusal("files: [survey.tif, none.asc]", "files[1].file", "none.asc");
     expect_refusal("file: survey.tif, window: {min: [3, 0], max: [2, 9]}", "window.max", "expected min < max");

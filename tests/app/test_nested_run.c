@@ -186,6 +186,21 @@ static void water_that_the_grid_lacks_is_named(void **state)
     outcome_free(&o);
 }
 
+/* A terrain with another vertical datum. */
+static void another_depth_of_the_grid_is_named(void **state)
+{
+    (void)state;
+    write_text("flat.asc", "ncols 3\nnrows 2\nxllcorner -15\nyllcorner -10\ncellsize 10\n0 0 0\n0 0 0\n");
+    write_text("bed.yaml", HEAD "offshore: {cell: 0.04, min: [-6], max: [4], terrain: [{file: flat.asc, datum: 0}]}\n");
+    outcome o = RUN(0, "check", "bed.yaml");
+    assert_null(strstr(o.out, "warning: sea"));
+    outcome_free(&o);
+    o = RUN(0, "check", "bed.yaml", "--set", "offshore.terrain[0].datum=-100");
+    assert_contains(o.out, "warning: sea: at x_min the water of the grid is 100.4 m deep in the mean, and that of the "
+                           "particles 0.4 m");
+    outcome_free(&o);
+}
+
 /* The volume that has entered the grid through x_min. */
 static double entered_at_x_min(const char *path)
 {
@@ -311,6 +326,7 @@ int main(void)
         cmocka_unit_test(water_at_rest_stays),
         cmocka_unit_test(still_water_rests_beside_a_quay),
         cmocka_unit_test(water_that_the_grid_lacks_is_named),
+        cmocka_unit_test(another_depth_of_the_grid_is_named),
         cmocka_unit_test(gauges_and_maps_of_the_grid),
         cmocka_unit_test(a_paddle_makes_the_wave),
         cmocka_unit_test(gauges_outside_of_all_water_are_refused),
