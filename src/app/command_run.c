@@ -23,7 +23,7 @@ static const char help[] =
     "  --until T            stop at T seconds instead of the scene's duration\n"
     "  --threads N          number of simulation threads (default: one per available core)\n"
     "  --preset NAME        numerical parameters: default, paper or wen (default: the scene's preset)\n"
-    "  --set KEY=VALUE      change a key of the scene, e.g. --set resolution=5; may be repeated\n"
+    "  --set KEY=VALUE      change a key of the scene, e.g. --set resolution=5; null removes it; may be repeated\n"
     "  --overwrite          replace the run in DIR; without --overwrite or --resume, DIR must not hold a run;\n"
     "                       a DIR that holds other files and no run is always refused\n"
     "  --resume             continue from the newest checkpoint in DIR, with the same bits as an uninterrupted run;\n"

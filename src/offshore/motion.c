@@ -40,19 +40,18 @@ static void add_cell(const sb_offshore *o, size_t column, size_t row, double wei
     out->lift += weight * 3 * o->dispersion->pressure[at] / (h * h);
 }
 
-void sb_offshore_motion_at(const sb_offshore *offshore, double time, double x, double y, sb_offshore_motion *out)
+/* The motion of a sample over ground; dry, if its water is not above the ground. */
+static void motion_of(const sb_offshore *offshore, const sb_offshore_sample *sample, double time, double x, double y,
+                      double ground, sb_offshore_motion *out)
 {
-    const sb_offshore_sample s = sb_offshore_at(offshore, x, y);
+    const sb_offshore_sample s = *sample;
     const double after = time - s.time[1];
-    *out = (sb_offshore_motion){.wet = s.wet[1], .bed = s.bed, .surface = s.bed};
-    if (!s.wet[1]) return;
     const bool both = s.wet[0];
-    out->surface = s.water[1].surface + (both ? after * s.rate.surface : 0);
-    out->wet = out->surface > s.bed;
-    if (!out->wet) {
-        out->surface = s.bed;
-        return;
-    }
+    *out = (sb_offshore_motion){.bed = s.bed, .surface = s.water[1].surface};
+    if (!s.wet[1]) return;
+    out->surface += both ? after * s.rate.surface : 0;
+    out->wet = out->surface > ground;
+    if (!out->wet) return;
     out->u = s.water[1].u + (both ? after * s.rate.u : 0);
     out->v = s.water[1].v + (both ? after * s.rate.v : 0);
     out->u_rate = both ? s.rate.u : 0;
@@ -61,4 +60,18 @@ void sb_offshore_motion_at(const sb_offshore *offshore, double time, double x, d
     for (int k = 0; k < 4; k++)
         add_cell(offshore, c.column + (size_t)(k & 1), c.row + (sb_offshore_flat(offshore) ? 0 : (size_t)(k >> 1)),
                  c.weight[k], out);
+}
+
+void sb_offshore_motion_at(const sb_offshore *offshore, double time, double x, double y, sb_offshore_motion *out)
+{
+    const sb_offshore_sample s = sb_offshore_at(offshore, x, y);
+    motion_of(offshore, &s, time, x, y, s.bed, out);
+    if (!out->wet) out->surface = s.bed;
+}
+
+void sb_offshore_motion_over(const sb_offshore *offshore, double time, double x, double y, double ground,
+                             sb_offshore_motion *out)
+{
+    const sb_offshore_sample s = sb_offshore_over(offshore, x, y, ground);
+    motion_of(offshore, &s, time, x, y, ground, out);
 }

@@ -18,5 +18,10 @@ typedef struct sb_offshore_motion {
 /* Linear in time through the last two time levels, also before and after them; bilinear between cell centres. A place
    outside of the grid has the values of the nearest edge. */
 void sb_offshore_motion_at(const sb_offshore *offshore, double time, double x, double y, sb_offshore_motion *out);
+/* The same over other ground than the grid's, with this height, m: there is water where that of the cells around the
+   place stands above this ground. `surface` is that of this water also where it is below the ground; where these cells
+   have no water, it is at most the ground's height. */
+void sb_offshore_motion_over(const sb_offshore *offshore, double time, double x, double y, double ground,
+                             sb_offshore_motion *out);
 
 #endif

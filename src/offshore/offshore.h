@@ -81,6 +81,10 @@ typedef struct sb_offshore_sample {
 } sb_offshore_sample;
 /* A place outside of the grid has the values of the nearest edge. */
 sb_offshore_sample sb_offshore_at(const sb_offshore *offshore, double x, double y);
+/* The same over other ground than the grid's, whose height is `ground`, m: the place has water where that of the cells
+   around it stands above this ground. A dry place has the surface of this water, which is below its ground; without
+   water in these cells the lower one of ground and bed. */
+sb_offshore_sample sb_offshore_over(const sb_offshore *offshore, double x, double y, double ground);
 
 /* Adds depth, m, and momentum per area, m^2/s, to one cell between two steps, for exchange with other models. No more
    water is removed than there is. Returns the depth that was added. The change is booked in the balance. */

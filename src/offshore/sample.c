@@ -26,9 +26,10 @@ sb_offshore_corners sb_offshore_around(const sb_offshore *offshore, double x, do
                                  .weight = {(1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy}};
 }
 
-/* Dry cells take part with the mean surface of the wet ones; where this is below the bed, the place is dry. */
+/* Dry cells take part with the mean surface of the wet ones; where this is below the ground, the place is dry. Its
+   surface is then this one, or `lowest` without a wet cell. */
 static sb_offshore_water mix(const sb_offshore *offshore, const sb_offshore_level *level, const sb_offshore_corners *c,
-                             double bed, bool *wet)
+                             double ground, double lowest, bool *wet)
 {
     const double dry = offshore->options.dry_depth;
     sb_offshore_water sum = {0};
@@ -42,23 +43,51 @@ static sb_offshore_water mix(const sb_offshore *offshore, const sb_offshore_leve
         weight += c->weight[k];
         sum.surface += c->weight[k] * (level->h[at] + offshore->bed[at]);
     }
-    *wet = weight > 0 && sum.surface / weight > bed;
-    if (!*wet) return (sb_offshore_water){.surface = bed};
+    *wet = weight > 0 && sum.surface / weight > ground;
+    if (!*wet) return (sb_offshore_water){.surface = weight > 0 ? sum.surface / weight : lowest};
     const double square = h * h + fmax(h * h, dry * dry);
     return (sb_offshore_water){.surface = sum.surface / weight, .u = 2 * h * hu / square, .v = 2 * h * hv / square};
+}
+
+static double bed_of(const sb_offshore *offshore, const sb_offshore_corners *c)
+{
+    double bed = 0;
+    for (int k = 0; k < 4; k++) bed += c->weight[k] * offshore->bed[c->at[k]];
+    return bed;
+}
+
+static sb_offshore_sample mix_both(const sb_offshore *offshore, const sb_offshore_corners *c, double bed, double ground)
+{
+    sb_offshore_sample sample = {.time = {offshore->before_time, offshore->time}, .bed = bed};
+    const double lowest = fmin(ground, bed);
+    sample.water[0] = mix(offshore, &offshore->before, c, ground, lowest, &sample.wet[0]);
+    sample.water[1] = mix(offshore, &offshore->now, c, ground, lowest, &sample.wet[1]);
+    return sample;
+}
+
+static void find_rate(sb_offshore_sample *s)
+{
+    const double dt = s->time[1] - s->time[0];
+    if (dt > 0)
+        s->rate = (sb_offshore_water){(s->water[1].surface - s->water[0].surface) / dt,
+                                      (s->water[1].u - s->water[0].u) / dt, (s->water[1].v - s->water[0].v) / dt};
 }
 
 sb_offshore_sample sb_offshore_at(const sb_offshore *offshore, double x, double y)
 {
     const sb_offshore_corners c = sb_offshore_around(offshore, x, y);
-    sb_offshore_sample sample = {.time = {offshore->before_time, offshore->time}};
-    for (int k = 0; k < 4; k++) sample.bed += c.weight[k] * offshore->bed[c.at[k]];
-    sample.water[0] = mix(offshore, &offshore->before, &c, sample.bed, &sample.wet[0]);
-    sample.water[1] = mix(offshore, &offshore->now, &c, sample.bed, &sample.wet[1]);
-    const double dt = sample.time[1] - sample.time[0];
-    if (dt > 0)
-        sample.rate = (sb_offshore_water){(sample.water[1].surface - sample.water[0].surface) / dt,
-                                          (sample.water[1].u - sample.water[0].u) / dt,
-                                          (sample.water[1].v - sample.water[0].v) / dt};
+    const double bed = bed_of(offshore, &c);
+    sb_offshore_sample sample = mix_both(offshore, &c, bed, bed);
+    for (int k = 0; k < 2; k++)
+        if (!sample.wet[k]) sample.water[k].surface = bed;
+    find_rate(&sample);
+    return sample;
+}
+
+sb_offshore_sample sb_offshore_over(const sb_offshore *offshore, double x, double y, double ground)
+{
+    const sb_offshore_corners c = sb_offshore_around(offshore, x, y);
+    sb_offshore_sample sample = mix_both(offshore, &c, bed_of(offshore, &c), ground);
+    find_rate(&sample);
     return sample;
 }

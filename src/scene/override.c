@@ -79,13 +79,15 @@ static sb_status step_map(sb_yaml *map, const char *key, const char *rest, size_
     return *next ? SB_OK : sb_fail_memory(error, "a --set key");
 }
 
-static sb_status find_place(sb_yaml *root, const char *key, sb_yaml **place, sb_error *error)
+/* The node of a key, and the list or block that has it; a key that is missing is added. */
+static sb_status find_place(sb_yaml *root, const char *key, sb_yaml **parent, sb_yaml **place, sb_error *error)
 {
     sb_yaml *node = root;
     const char *rest = key;
     do {
         size_t used = 0;
         sb_yaml *next = NULL;
+        *parent = node;
         sb_status status = node->kind == SB_YAML_LIST ? step_list(node, key, rest, &used, &next, error)
                                                       : step_map(node, key, rest, &used, &next, error);
         if (status != SB_OK) return status;
@@ -98,16 +100,34 @@ static sb_status find_place(sb_yaml *root, const char *key, sb_yaml **place, sb_
     return SB_OK;
 }
 
+/* Whether a value is null, and not empty, which is more likely a mistake. */
+static bool removes(const sb_yaml *value)
+{
+    return sb_yaml_is_null(value) && value->text && *value->text;
+}
+
+/* A key that find_place has added is an empty scalar of no file. */
+static sb_status remove_place(sb_yaml *parent, sb_yaml *place, const char *key, sb_error *error)
+{
+    if (place->kind == SB_YAML_SCALAR && place->line == 0 && !(place->text && *place->text))
+        return sb_fail(error, SB_BAD_INPUT, "--set: %.200s: null removes a key, and the scene has no such key", key);
+    sb_yaml_remove(parent, place);
+    return SB_OK;
+}
+
 sb_status sb_override_apply(sb_yaml *root, const sb_override *override, sb_error *error)
 {
     char name[300];
     snprintf(name, sizeof name, "--set: %.200s", override->key);
-    sb_yaml value = {0}, *place = NULL;
+    sb_yaml value = {0}, *parent = NULL, *place = NULL;
     sb_yaml_source source = {.name = name};
     sb_status status = sb_yaml_parse(source, override->value, strlen(override->value), &value, error);
     if (status != SB_OK) return status;
-    status = find_place(root, override->key, &place, error);
-    if (status == SB_OK) sb_yaml_replace(place, &value);
+    status = find_place(root, override->key, &parent, &place, error);
+    if (status == SB_OK && removes(&value))
+        status = remove_place(parent, place, override->key, error);
+    else if (status == SB_OK)
+        sb_yaml_replace(place, &value);
     sb_yaml_free(&value);
     return status;
 }

@@ -22,7 +22,8 @@ static const sb_table side_table = {SB_KEY_ROWS(side_keys)};
      .type = SB_KEY_FILE,                                                                                              \
      SB_KEY_AT(sb_offshore_grid, file),                                                                                \
      .flags = SB_KEY_REQUIRED,                                                                                         \
-     .doc = "Heights in metres: ESRI ASCII (.asc), GeoClaw topotype 1 to 3, or lines of x y z."},                      \
+     .doc = "Heights in metres: ESRI ASCII (.asc), GeoClaw topotype 1 to 3, lines of x y z, GeoTIFF .tif, or NetCDF "  \
+            ".nc or .grd; a file in degrees that states so is projected to its UTM zone."},                            \
         {.name = "scale",                                                                                              \
          .type = SB_KEY_NUMBER,                                                                                        \
          SB_KEY_AT(sb_offshore_grid, scale),                                                                           \
@@ -50,7 +51,7 @@ static const sb_table side_table = {SB_KEY_ROWS(side_keys)};
 
 static const sb_key grid_keys[] = {GRID_KEYS};
 
-static const sb_table grid_table = {SB_KEY_ROWS(grid_keys), .size = sizeof(sb_offshore_grid)};
+static const sb_table grid_table = {SB_KEY_ROWS(grid_keys), .size = sizeof(sb_offshore_grid), .plain = true};
 
 enum { UPLIFT = 1, PADDLE = 2 };
 
@@ -73,8 +74,8 @@ static const sb_key keys[] = {
      .doc = "Corner of the grid with the largest x and y; [x] in 2D. Each extent is a whole number of cells."},
     {.name = "terrain", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_offshore_settings, terrain, terrain_count),
      .table = &grid_table, .derived = "the bodies",
-     .doc = "Grids of the bed, coarse ones first: where a later one has heights, these count. Together they cover "
-            "the grid. Without it, the bed is the highest surface of the bodies, or else the domain's floor."},
+     .doc = "Grids of the bed, coarse ones first: where a later one has heights, these count; a file name alone is a grid "
+            "without other keys. Together they cover the grid. Without it, the bed is the highest surface of the bodies, or else the domain's floor."},
     {.name = "level", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_offshore_settings, level), .unit = "m", SB_KEY_ANY,
      .derived = "`water.level`; 0 without particles",
      .doc = "Still-water level: all ground below it is under water at the start."},

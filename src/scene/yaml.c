@@ -282,6 +282,14 @@ void sb_yaml_replace(sb_yaml *place, sb_yaml *value)
     place->key_column = column;
 }
 
+void sb_yaml_remove(sb_yaml *parent, sb_yaml *item)
+{
+    sb_yaml_free(item);
+    parent->count--;
+    memmove(item, item + 1, (size_t)(parent->items + parent->count - item) * sizeof *item);
+    parent->items[parent->count] = (sb_yaml){0};
+}
+
 sb_yaml *sb_yaml_append(sb_yaml *map, const char *key, size_t key_length)
 {
     char *name = sb_alloc(key_length + 1, 1);

@@ -45,6 +45,9 @@ bool sb_yaml_is_null(const sb_yaml *node);
 /* Moves *value into *place. The key of *place stays; its old value is freed and *value is zeroed. */
 void sb_yaml_replace(sb_yaml *place, sb_yaml *value);
 
+/* Frees an item of a list or a map, and closes the gap. */
+void sb_yaml_remove(sb_yaml *parent, sb_yaml *item);
+
 /* Adds an empty scalar under a new key of a map (key of key_length bytes). NULL without memory. */
 sb_yaml *sb_yaml_append(sb_yaml *map, const char *key, size_t key_length);
 

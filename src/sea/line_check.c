@@ -54,6 +54,23 @@ static sb_status check_places(const sb_line *series, const sb_scene *scene, cons
     return SB_OK;
 }
 
+/* Refuses points that are all at one place for the scene, such as degrees read as metres. */
+static sb_status check_extent(const sb_line *series, const sb_scene *scene, const char *path, sb_error *error)
+{
+    double extent = 0;
+    if (scene->dimensions == 2) return SB_OK;
+    for (size_t i = 1; i < series->count; i++)
+        extent =
+            fmax(extent, hypot(series->points[i].x - series->points[0].x, series->points[i].y - series->points[0].y));
+    if (!(extent < scene->resolution)) return SB_OK;
+    return sb_fail(
+        error, SB_BAD_INPUT,
+        "%.500s: its %zu points lie within %.3g m of (%g, %g), less than a spacing of %g m, expected points along "
+        "a side, in metres of the scene%s",
+        path, series->count, extent, series->points[0].x, series->points[0].y, scene->resolution,
+        like_degrees(series) ? "; these look like longitudes and latitudes" : "");
+}
+
 sb_status sb_line_check(const sb_line *series, const sb_scene *scene, const char *path, sb_error *error)
 {
     if (series->count == 0) return sb_fail(error, SB_BAD_INPUT, "%.500s: has no rows, expected at least 2", path);
@@ -65,5 +82,6 @@ sb_status sb_line_check(const sb_line *series, const sb_scene *scene, const char
                            point->x, point->y);
         status = check_times(point, scene, path, error);
     }
-    return status == SB_OK && series->count > 1 ? check_places(series, scene, path, error) : status;
+    if (status == SB_OK && series->count > 1) status = check_places(series, scene, path, error);
+    return status == SB_OK && series->count > 1 ? check_extent(series, scene, path, error) : status;
 }

@@ -56,12 +56,14 @@ static sb_status create(const sb_scene *scene, const sb_offshore_start *grid, vo
     return SB_OK;
 }
 
-/* The velocity over the depth is that of the equations with dispersion; without it, it is uniform. */
+/* Whether there is water, the particles' bed decides: a quay that stands between the centres of two cells is a slope in
+   the grid, above the water for some way. The velocity over the depth is that of the equations with dispersion; without
+   it, it is uniform. */
 static void at(const void *state, double t, double x, double y, double z, double bed, sb_sea_point *out)
 {
     const nest *sea = state;
     sb_offshore_motion m;
-    sb_offshore_motion_at(sea->water, t, x, y, &m);
+    sb_offshore_motion_over(sea->water, t, x, y, bed, &m);
     out->surface = m.surface;
     if (!m.wet || !(m.surface > bed)) return;
     const double depth = m.surface - bed, height = depth * sb_sea_fraction(z, bed, m.surface);

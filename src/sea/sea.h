@@ -12,6 +12,9 @@
 /* Constant after its creation, unless it has a grid; safe for any number of threads. */
 typedef struct sb_sea_source sb_sea_source;
 
+/* Layers of particles in a column at the start from which on the given water must not leave it dry. */
+enum { SB_SEA_DEEP = 4 };
+
 typedef struct sb_sea_point {
     double surface;         /* m, z of the water's surface; at or below the bed: dry */
     double velocity[3];     /* m/s */

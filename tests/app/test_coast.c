@@ -158,6 +158,27 @@ static void degrees_are_projected(void **state)
     outcome_free(&o);
 }
 
+/* The same survey as the bed of a depth-averaged model, moved to the scene's places, under a grid that is named alone.
+ */
+static void a_survey_is_the_bed_of_a_grid(void **state)
+{
+    (void)state;
+    write_text("sea.asc",
+               "ncols 3\nnrows 3\nxllcorner -100\nyllcorner -100\ncellsize 100\n-9 -9 -9\n-9 -9 -9\n-9 -9 -9\n");
+    grid_sample_tiff(&survey, in_folder("survey.tif"));
+    write_text("bed.yaml",
+               "title: Bed\nduration: 1\ndomain: {min: [-20, -20, -20], max: [60, 60, 10]}\n"
+               "offshore: {cell: 10, level: 0, terrain: [sea.asc, {file: survey.tif, shift: [-547000, -4250000]}]}\n"
+               "output: {plots: false, particle_interval: 1}\nmeasure: {gauges: [{name: g, x: 0, y: 0}]}\n");
+    outcome o = program_run((const char *const[]){"check", "bed.yaml", NULL});
+    if (o.status != 0) fail_msg("%s", o.err);
+    assert_contains(o.out, "8 x 8 of 10 m, 64 wet");
+    outcome_free(&o);
+    o = program_run((const char *const[]){"check", "bed.yaml", "--set", "offshore.level=-5", NULL});
+    assert_contains(o.out, "8 x 8 of 10 m, 24 wet"); /* the beach is below -5 m where x < 10 */
+    outcome_free(&o);
+}
+
 static void expect_refusal(const char *grid, const char *name, const char *expected)
 {
     write_coast("bad.yaml", grid);
@@ -174,6 +195,8 @@ static void refusals_name_the_remedy(void **state)
     grid_sample_tiff(&survey, in_folder("survey.tif"));
     expect_refusal("file: survey.tif", "survey.tif", "the key origin is the place that becomes (0, 0)");
     expect_refusal("file: survey.tif, files: [survey.tif]", "file", "files");
+    write_text("degrees.asc", "ncols 3\nnrows 2\nxllcorner 41\nyllcorner 37\ncellsize 0.001\n-6 -6 -6\n-6 -6 -6\n");
+    expect_refusal("file: degrees.asc", "body \"coast\": its grid is 0.002 m x 0.001 m large", "give crs: EPSG:4326");
     expect_refusal("files: []", "bad.yaml", "files");
     expect_refusal("files: [survey.tif, none.asc]", "files[1].file", "none.asc");
     expect_refusal("file: survey.tif, window: {min: [3, 0], max: [2, 9]}", "window.max", "expected min < max");
@@ -185,9 +208,8 @@ static void refusals_name_the_remedy(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_stack_with_voids_and_a_datum),
-        cmocka_unit_test(a_table_of_geoclaw_enters_a_real_coast),
-        cmocka_unit_test(degrees_are_projected),
+        cmocka_unit_test(a_stack_with_voids_and_a_datum), cmocka_unit_test(a_table_of_geoclaw_enters_a_real_coast),
+        cmocka_unit_test(degrees_are_projected),          cmocka_unit_test(a_survey_is_the_bed_of_a_grid),
         cmocka_unit_test(refusals_name_the_remedy),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

@@ -142,6 +142,65 @@ static void water_at_rest_stays(void **state)
     assert_true(highest_between("rest", 0, 3) < 0.004);
 }
 
+/* A quay across the side y_min, whose face is just before the centre of a cell, and a house on it: the grid
+   has slopes there that stand out of the water before the face and above the quay. Still water rests as it does when
+   the sea is still water without a grid. */
+static void still_water_rests_beside_a_quay(void **state)
+{
+    (void)state;
+    write_text("quay.yaml",
+               "title: t\nresolution: 0.1\nduration: 1\nnumerics: {settle_steps: 100}\noutput: {plots: false}\n"
+               "domain: {min: [0, 0, 0], max: [3, 2, 1], sides: {y_min: sea}}\n"
+               "water: {level: 0.4, seed: [0.5, 1, 0.2]}\nsea: {source: offshore}\n"
+               "offshore: {cell: 0.4, min: [-4, -4], max: [3.2, 6]}\n"
+               "measure: {interval: 0.1, gauges: [{name: face, x: 1.65, y: 0.15}]}\n"
+               "bodies:\n"
+               "  - {name: quay, shape: box, min: [1.75, -4, 0], max: [4, 6, 0.6]}\n"
+               "  - {name: house, shape: box, min: [2.5, -4, 0.5], max: [4, 6, 0.9]}\n");
+    outcome o = RUN(0, "check", "quay.yaml");
+    assert_null(strstr(o.out, "warning: sea"));
+    outcome_free(&o);
+    RUN_AND_FORGET(0, "run", "quay.yaml", "--out", "quay", "--quiet");
+    RUN_AND_FORGET(0, "run", "quay.yaml", "--out", "still", "--quiet", "--set", "sea=null", "--set", "offshore=null");
+    assert_same_file("quay", "still", "gauges.csv");
+    assert_near(highest_at("quay", "face", 0, 2, &(double){0}), 0, 0.001);
+}
+
+/* A channel between the centres of the grid's cells: the grid has none of its water. */
+static void water_that_the_grid_lacks_is_named(void **state)
+{
+    (void)state;
+    write_text("channel.yaml", "title: t\nresolution: 0.05\nduration: 1\noutput: {plots: false}\n"
+                               "domain: {min: [0, 0, 0], max: [3, 2, 1], sides: {x_min: sea}}\n"
+                               "water: {level: 0.4, seed: [1, 1.0, 0.2]}\nsea: {source: offshore}\n"
+                               "offshore: {cell: 0.5, min: [-4, 0], max: [3, 2]}\n"
+                               "bodies:\n"
+                               "  - {name: south, shape: box, min: [-1, -1, 0], max: [4, 0.9, 0.6]}\n"
+                               "  - {name: north, shape: box, min: [-1, 1.1, 0], max: [4, 3, 0.6]}\n");
+    outcome o = RUN(0, "check", "channel.yaml");
+    assert_contains(o.out, "warning: sea: the grid has no water around (0, ");
+    assert_contains(o.out, "expected a smaller offshore.cell than 0.5 m");
+    outcome_free(&o);
+    o = RUN(0, "check", "channel.yaml", "--set", "offshore.cell=0.1");
+    assert_null(strstr(o.out, "warning: sea"));
+    outcome_free(&o);
+}
+
+/* A terrain with another vertical datum. */
+static void another_depth_of_the_grid_is_named(void **state)
+{
+    (void)state;
+    write_text("flat.asc", "ncols 3\nnrows 2\nxllcorner -15\nyllcorner -10\ncellsize 10\n0 0 0\n0 0 0\n");
+    write_text("bed.yaml", HEAD "offshore: {cell: 0.04, min: [-6], max: [4], terrain: [{file: flat.asc, datum: 0}]}\n");
+    outcome o = RUN(0, "check", "bed.yaml");
+    assert_null(strstr(o.out, "warning: sea"));
+    outcome_free(&o);
+    o = RUN(0, "check", "bed.yaml", "--set", "offshore.terrain[0].datum=-100");
+    assert_contains(o.out, "warning: sea: at x_min the water of the grid is 100.4 m deep in the mean, and that of the "
+                           "particles 0.4 m");
+    outcome_free(&o);
+}
+
 /* The volume that has entered the grid through x_min. */
 static double entered_at_x_min(const char *path)
 {
@@ -265,6 +324,9 @@ int main(void)
         cmocka_unit_test(a_wave_comes_in_and_leaves),
         cmocka_unit_test(bits_are_those_of_any_threads_and_of_a_resumed_run),
         cmocka_unit_test(water_at_rest_stays),
+        cmocka_unit_test(still_water_rests_beside_a_quay),
+        cmocka_unit_test(water_that_the_grid_lacks_is_named),
+        cmocka_unit_test(another_depth_of_the_grid_is_named),
         cmocka_unit_test(gauges_and_maps_of_the_grid),
         cmocka_unit_test(a_paddle_makes_the_wave),
         cmocka_unit_test(gauges_outside_of_all_water_are_refused),

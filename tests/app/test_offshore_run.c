@@ -136,7 +136,11 @@ static void bad_input_is_one_line(void **state)
 {
     (void)state;
     write_grid("small.xyz", -10, 30, -10, 50, -10);
-    refuse("no height at (31, 1) m and at 499 other cells", "offshore.terrain=[{file: small.xyz}]");
+    refuse("no height at (31, 1) m and at 499 other cells; its grids lie from ",
+           "offshore.terrain=[{file: small.xyz}]");
+    write_text("degrees.asc", "ncols 3\nnrows 2\nxllcorner 141\nyllcorner 37\ncellsize 0.001\n-9 -9 -9\n-9 -9 -9\n");
+    refuse("these look like longitudes and latitudes", "offshore.terrain=[{file: degrees.asc}]");
+    refuse("the key shift of a grid moves it", "offshore.terrain=[{file: small.xyz, shift: [900, 0]}]");
     refuse("is below the whole bed", "offshore.level=-50");
     refuse("expected a whole number", "offshore.cell=3");
     refuse("does not apply here", "resolution=1");

@@ -164,6 +164,20 @@ static void doubtful_input_is_named(void **state)
     }
 }
 
+/* The run ends there, which is known before; a run that ends earlier is not warned. */
+static void a_source_that_will_dry_the_strip_is_named(void **state)
+{
+    (void)state;
+    write_text("dry.csv", "t,eta,u\n0,0,0\n1,0,0\n2,-0.37,0\n4,-0.37,0\n");
+    write_text("dry.yaml", HEAD SEA "sea: {source: table, file: dry.csv, sides: {x_max: still}}\n");
+    outcome o = RUN(0, "check", "dry.yaml");
+    assert_contains(o.out, "warning: sea: at 1.86 s the given water at x_min falls to 0.04973 m at (0, 0)");
+    outcome_free(&o);
+    o = RUN(0, "check", "dry.yaml", "--set", "duration=1.8");
+    assert_null(strstr(o.out, "warning: sea"));
+    outcome_free(&o);
+}
+
 /* The mean of a column of a table over the rows of an item from a time on. */
 static double mean_of(const char *path, const char *item, int column, double from)
 {
@@ -232,6 +246,7 @@ int main(void)
         cmocka_unit_test(a_run_resumes_with_the_same_table_only),
         cmocka_unit_test(bad_input_gives_one_line),
         cmocka_unit_test(doubtful_input_is_named),
+        cmocka_unit_test(a_source_that_will_dry_the_strip_is_named),
         cmocka_unit_test(a_current_crosses_four_corners),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

@@ -80,6 +80,37 @@ static void test_items(void **state)
     }
 }
 
+/* null removes a key, which then has its default, an item, and a block; then the key can be given again. */
+static void test_null_removes(void **state)
+{
+    (void)state;
+    sb_scene scene;
+    read_with(SCENE_BODIES, "bodies.a", "null", &scene);
+    assert_int_equal(scene.body_count, 2);
+    assert_string_equal(scene.bodies[0].name, "a.b");
+    assert_string_equal(scene.bodies[1].name, "0");
+    sb_scene_free(&scene);
+    read_with(SCENE_BODIES, "bodies[2]", "~", &scene);
+    assert_int_equal(scene.body_count, 2);
+    assert_string_equal(scene.bodies[1].name, "a.b");
+    sb_scene_free(&scene);
+    read_with(SCENE_HEAD "title: a\nrender: {width: 640}\n", "render.width", "null", &scene);
+    assert_int_not_equal(scene.render.width, 640);
+    sb_scene_free(&scene);
+    const sb_override again[] = {{"bodies", "null"},
+                                 {"bodies", "[{name: z, shape: box, min: [0, 0, 0], max: [1, 1, 1]}]"}};
+    scene_must_read(SCENE_BODIES, NULL, again, 2, &scene);
+    assert_int_equal(scene.body_count, 1);
+    assert_string_equal(scene.bodies[0].name, "z");
+    sb_scene_free(&scene);
+    refuse(SCENE_HEAD, "titel", "null", "--set: titel: null removes a key, and the scene has no such key");
+    refuse(SCENE_HEAD, "render.width", "null",
+           "--set: render.width: null removes a key, and the scene has no such key");
+    read_with(SCENE_HEAD, "title", "\"null\"", &scene);
+    assert_string_equal(scene.title, "null");
+    sb_scene_free(&scene);
+}
+
 static void test_alias_is_a_copy(void **state)
 {
     (void)state;
@@ -143,6 +174,7 @@ int main(void)
         cmocka_unit_test(test_values),       cmocka_unit_test(test_later_wins),
         cmocka_unit_test(test_items),        cmocka_unit_test(test_alias_is_a_copy),
         cmocka_unit_test(test_refused_keys), cmocka_unit_test(test_refused_values),
+        cmocka_unit_test(test_null_removes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -127,6 +127,10 @@ static void what_is_refused(void **state)
     sea_refused(SEA_FLAT, TABLE, "t,eta,u\n3,0,0\n29,0,0\n", "begins at 3 s, expected 0 s or earlier");
     sea_refused(SEA_FLAT, TABLE ", datum: 101", "t,eta,u\n0,0,0\n29,0,0\n",
                 "the surface begins at 101 m, 100 m from the still level of 1 m");
+    sea_refused(
+        SEA_SPACE, TABLE, "t,x,y,eta,u\n0,1.03,7.42,0,0\n29,1.03,7.42,0,0\n0,1.03,7.43,0,0\n29,1.03,7.43,0,0\n",
+        "its 2 points lie within 0.01 m of (1.03, 7.42), less than a spacing of 0.1 m, expected points along a side, "
+        "in metres of the scene; these look like longitudes and latitudes");
     sea_refused(SEA_FLAT, TABLE, "t,eta,u\n0,0,0\n29,nan,0\n", "table.csv:3: eta is nan, expected a number");
     sea_refused(SEA_FLAT, TABLE, "t,eta,u\n0,0,0\n29,0,\n", "table.csv:3: u is missing");
     sea_refused(SEA_FLAT, TABLE, "t,eta,u\n0,0,0\n8,0,0\n7,0,0\n29,0,0\n",

@@ -7,7 +7,9 @@
 #include "subject.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char *const houses[] = {"a", "b", NULL};
 
@@ -67,12 +69,12 @@ static size_t entries_of(const sb_subject *subject, const char *scene)
     return count;
 }
 
-/* Three rows at three spacings have the plant's nested scene; other subjects have none of them. */
+/* Four rows at three spacings have the plant's nested scene; other subjects have none of them. */
 static void test_rows_of_one_subject_have_its_scene(void **state)
 {
     (void)state;
     for (const sb_subject *s = sb_subjects; s->name; s++)
-        assert_int_equal(entries_of(s, "plant-coast.yaml"), strcmp(s->name, "plant") == 0 ? 9 : 0);
+        assert_int_equal(entries_of(s, "plant-coast.yaml"), strcmp(s->name, "plant") == 0 ? 12 : 0);
 }
 
 /* Only the first row changes nothing; every scene accepts all settings; names are unique. */
@@ -85,16 +87,27 @@ static void test_choices_are_valid(void **state)
         for (const sb_choice *k = sb_choices; k < c; k++) assert_string_not_equal(k->name, c->name);
     }
     sb_store store = {.assets = SB_SOURCE_DIR "/assets/validation"};
+    char record[] = "/tmp/test-contest-XXXXXX", file[64];
+    assert_non_null(mkdtemp(record));
+    snprintf(file, sizeof file, "%s/record.csv", record);
+    FILE *empty = fopen(file, "w");
+    assert_true(empty && fclose(empty) == 0);
     for (const sb_subject *s = sb_subjects; s->name; s++) {
         sb_contest c;
         sb_error error = {0};
         char folder[SB_PATH_MAX];
         if (sb_contest_begin(&c, s, &store, &(sb_contest_selection){.seeds = 1}, &error) != SB_OK)
             fail_msg("%s", error.text);
+        for (size_t i = 0; i < c.record_count; i++)
+            if (sb_run_folder(&store, &c.records[i].request, folder, &error) != SB_OK) fail_msg("%s", error.text);
+        for (sb_entry *e = c.entries; e < c.entries + c.entry_count; e++)
+            for (size_t i = e->first; i < e->first + e->seeds; i++)
+                if (sb_contest_record(&c, e, i)) c.trials[i].request.replays = record;
         for (size_t i = 0; i < c.trial_count; i++)
             if (sb_run_folder(&store, &c.trials[i].request, folder, &error) != SB_OK) fail_msg("%s", error.text);
         sb_contest_free(&c);
     }
+    assert_true(remove(file) == 0 && rmdir(record) == 0);
 }
 
 /* The choice `wcsph` has the numerics of the preset `wen`; only some scenes have slow choices. */

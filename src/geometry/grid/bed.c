@@ -21,8 +21,9 @@ size_t sb_bed_rows(const sb_scene *scene)
 typedef struct raster {
     double x, y, cell; /* m, first centre */
     size_t columns, rows;
-    double *height; /* NAN: none yet */
-    bool replace;   /* a new height replaces the one that is there; otherwise the higher one stays */
+    double *height;        /* NAN: none yet */
+    double min[2], max[2]; /* m, of all that was drawn */
+    bool replace;          /* a new height replaces the one that is there; otherwise the higher one stays */
 } raster;
 
 static raster raster_of(const sb_scene *scene, double *height)
@@ -33,7 +34,17 @@ static raster raster_of(const sb_scene *scene, double *height)
                     .cell = o->cell,
                     .columns = sb_bed_columns(scene),
                     .rows = sb_bed_rows(scene),
+                    .min = {HUGE_VAL, HUGE_VAL},
+                    .max = {-HUGE_VAL, -HUGE_VAL},
                     .height = height};
+}
+
+static void include(raster *r, sb_vec3 v)
+{
+    r->min[0] = fmin(r->min[0], v.x);
+    r->min[1] = fmin(r->min[1], v.y);
+    r->max[0] = fmax(r->max[0], v.x);
+    r->max[1] = fmax(r->max[1], v.y);
 }
 
 /* First and last centre within [low, high], clamped to the grid; *first > *last when there is none. */
@@ -64,13 +75,14 @@ static void draw(const raster *r, sb_vec3 a, sb_vec3 b, sb_vec3 c)
         }
 }
 
-static sb_status draw_body(const raster *r, const sb_body *body, sb_error *error)
+static sb_status draw_body(raster *r, const sb_body *body, sb_error *error)
 {
     sb_mesh *meshes = NULL;
     size_t count = 0;
     sb_status status = sb_mesh_from_body(body, r->cell, &meshes, &count, error);
     for (size_t m = 0; m < count; m++) {
         const sb_vec3 *v = meshes[m].vertices;
+        for (size_t i = 0; i < meshes[m].vertex_count; i++) include(r, v[i]);
         for (size_t t = 0; t < meshes[m].triangle_count; t++) {
             const uint32_t *corner = meshes[m].triangles[t];
             draw(r, v[corner[0]], v[corner[1]], v[corner[2]]);
@@ -81,7 +93,7 @@ static sb_status draw_body(const raster *r, const sb_body *body, sb_error *error
     return status;
 }
 
-static sb_status draw_grid(const raster *r, const sb_offshore_grid *grid, const char *key, sb_error *error)
+static sb_status draw_grid(raster *r, const sb_offshore_grid *grid, const char *key, sb_error *error)
 {
     sb_body body = {.shape = SB_SHAPE_GRID,
                     .role = SB_ROLE_TERRAIN,
@@ -99,6 +111,18 @@ static void clear(const raster *r)
     for (size_t k = 0; k < r->columns * r->rows; k++) r->height[k] = (double)NAN;
 }
 
+/* What may be wrong with grids that are elsewhere than the model. */
+static const char *remedy(const raster *r)
+{
+    const bool small = r->max[0] - r->min[0] < r->cell && r->max[1] - r->min[1] < r->cell;
+    if (small && r->min[0] >= -180 && r->max[0] <= 360 && r->min[1] >= -90 && r->max[1] <= 90)
+        return "; these look like longitudes and latitudes, expected metres";
+    const double x = r->x + r->cell * (double)(r->columns - 1), y = r->y + r->cell * (double)(r->rows - 1);
+    if (r->min[0] > x || r->max[0] < r->x || (r->rows > 1 && (r->min[1] > y || r->max[1] < r->y)))
+        return "; the key shift of a grid moves it";
+    return "";
+}
+
 /* Fails when a cell has no height. */
 static sb_status check_covered(const raster *r, sb_error *error)
 {
@@ -109,11 +133,12 @@ static sb_status check_covered(const raster *r, sb_error *error)
             first = k;
         }
     if (missing == 0) return SB_OK;
-    return sb_fail(
-        error, SB_BAD_INPUT,
-        "offshore.terrain: no height at (%.9g, %.9g) m and at %zu other cells, expected grids that cover the "
-        "model, or a smaller offshore.min and max",
-        r->x + (double)(first % r->columns) * r->cell, r->y + (double)(first / r->columns) * r->cell, missing - 1);
+    return sb_fail(error, SB_BAD_INPUT,
+                   "offshore.terrain: no height at (%.9g, %.9g) m and at %zu other cells; its grids lie from (%.9g, "
+                   "%.9g) to (%.9g, "
+                   "%.9g); expected grids that cover the model, or a smaller offshore.min and max%s",
+                   r->x + (double)(first % r->columns) * r->cell, r->y + (double)(first / r->columns) * r->cell,
+                   missing - 1, r->min[0], r->min[1], r->max[0], r->max[1], remedy(r));
 }
 
 sb_status sb_bed_fill(const sb_scene *scene, double *bed, size_t *uncovered, sb_error *error)
@@ -140,7 +165,7 @@ sb_status sb_bed_fill(const sb_scene *scene, double *bed, size_t *uncovered, sb_
 
 sb_status sb_uplift_fill(const sb_scene *scene, double *uplift, sb_error *error)
 {
-    const raster r = raster_of(scene, uplift);
+    raster r = raster_of(scene, uplift);
     sb_status status = SB_OK;
     clear(&r);
     if (scene->offshore.has_uplift) status = draw_grid(&r, &scene->offshore.uplift, "offshore.uplift", error);

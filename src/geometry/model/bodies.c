@@ -93,6 +93,23 @@ static sb_status check_extent(const sb_scene *scene, const sb_model_body *body, 
     return SB_OK;
 }
 
+/* Refuses a terrain grid that is smaller than a spacing, such as one in degrees that is read as metres. */
+static sb_status check_grid(const sb_scene *scene, const sb_model_body *body, sb_error *error)
+{
+    sb_vec3 min = sb_vec(HUGE_VAL, HUGE_VAL, HUGE_VAL), max = sb_vec(-HUGE_VAL, -HUGE_VAL, -HUGE_VAL);
+    for (size_t i = 0; i < body->mesh.vertex_count; ++i) {
+        min = sb_min(min, body->mesh.vertices[i]);
+        max = sb_max(max, body->mesh.vertices[i]);
+    }
+    const sb_vec3 size = sb_sub(max, min);
+    if (body->mesh.node_count == 0 || !(fmax(size.x, size.y) < scene->resolution)) return SB_OK;
+    return sb_fail(
+        error, SB_BAD_INPUT,
+        "body \"%s\": its grid is %.3g m x %.3g m large, at (%.9g, %.9g), less than a spacing of %g m, expected "
+        "metres; if the file has degrees, give crs: EPSG:4326, and as origin the place that becomes (0, 0)",
+        body->name, size.x, size.y, min.x, min.y, scene->resolution);
+}
+
 /* A part with the name of another body of the scene would take over that body's rows and wave maker. */
 static sb_status check_name(const sb_scene *scene, const sb_body *from, const char *part, sb_error *error)
 {
@@ -152,6 +169,7 @@ static sb_status add_meshes(const sb_scene *scene, const sb_body *from, const sb
         meshes[i] = (sb_mesh){.open_surface = false};
         describe(scene, from, body);
         status = check_extent(scene, body, error);
+        if (status == SB_OK) status = check_grid(scene, body, error);
     }
     for (size_t i = 0; i < count; ++i) sb_mesh_free(meshes + i);
     sb_free(meshes);

@@ -6,6 +6,7 @@
 #include "geometry/model/model.h"
 #include "geometry/sampling/sample.h"
 #include "geometry/solid/solid.h"
+#include "sea/sea.h"
 
 /* Meshes of the surfaces that water meets (in 2D their section with y = 0) and their solids, one per body of the model
    including the domain's. In 2D a body that the plane y = 0 does not cut has no solid. */
@@ -89,6 +90,8 @@ sb_status sb_model_warn_ground(const sb_scene *scene, const sb_model_space *spac
 
 /* sea.c: finds the ground beside sides of kind sea. SB_BAD_INPUT if such a side is dry or has no room. */
 sb_status sb_model_sea_sides(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+/* sea_warnings.c: warns of given water that is probably not meant, once the ground is known. */
+sb_status sb_model_sea_warn(const sb_scene *scene, sb_sea_source *sea, sb_model *model, sb_error *error);
 
 /* Adds a warning for each open side at which water stands. */
 sb_status sb_model_warn_open(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);

@@ -3,7 +3,6 @@
 
 #include "base/memory.h"
 #include "geometry/grid/start.h"
-#include "sea/sea.h"
 
 /* Spacings by which the strip is wider than the support radius: a particle that is released at its inner edge has held
    water all around it for one more spacing. */
@@ -11,9 +10,6 @@ static const double SPARE = 1;
 
 /* Half of the length over which the water inside of the strip is averaged: in spacings, and in depths. */
 static const double LEAST_REACH = 3, REACH = 0.25;
-
-/* Part of the depth by which the theory's depth may differ from that at the side without a warning. */
-static const double SAME_DEPTH = 0.05;
 
 double sb_model_sea_reach(const sb_model *model, double depth)
 {
@@ -84,75 +80,6 @@ static sb_status check(const sb_scene *scene, const sb_model *model, int side, d
     return SB_OK;
 }
 
-/* The given surface at t = 0 that is farthest from the still level, as a height over it; 0 where all sides are dry. */
-static double first_height(const sb_scene *scene, const sb_model *model, const sb_sea_source *sea)
-{
-    double farthest = 0;
-    for (int side = 0; side < 4; side++) {
-        const sb_model_sea *ground = &model->sea[side];
-        for (size_t c = 0; sb_scene_given_side(scene, side) && c < ground->along; c++) {
-            const double bed = ground->bed[c * ground->across];
-            const sb_vec3 at = sb_model_sea_place(model, side, 0, ((double)c + 0.5) * ground->pitch);
-            sb_sea_point water;
-            sb_sea_at(sea, 0, at.x, at.y, scene->sea.level, bed, &water);
-            const double away = fmax(water.surface, bed) - fmax(scene->sea.level, bed);
-            if (fabs(away) > fabs(farthest)) farthest = away;
-        }
-    }
-    return farthest;
-}
-
-/* The side whose deepest ground is nearest to the depth of the theory; that depth. */
-static int nearest_depth(const sb_scene *scene, const sb_model *model, double *depth)
-{
-    int found = 0;
-    for (int side = 0; side < 4; side++) {
-        const sb_model_sea *ground = &model->sea[side];
-        double lowest = (double)INFINITY;
-        for (size_t c = 0; c < ground->along; c++) lowest = fmin(lowest, ground->bed[c * ground->across]);
-        const double here = scene->given.level - lowest;
-        if (!sb_scene_given_side(scene, side) || fabs(here - scene->given.depth) >= fabs(*depth - scene->given.depth))
-            continue;
-        *depth = here;
-        found = side;
-    }
-    return found;
-}
-
-/* A table or a record is the water along one line. */
-static sb_status warn_opposite(const sb_scene *scene, sb_model *model, sb_error *error)
-{
-    for (int side = 0; side < 4; side += 2)
-        if (sb_scene_given_side(scene, side) && sb_scene_given_side(scene, side + 1))
-            return sb_model_warn(model, error,
-                                 "sea.sides: the water of the file is given at %s and at the opposite %s at the same "
-                                 "time; expected still where waves only leave, such as {%s: still}",
-                                 sb_side_names[side], sb_side_names[side + 1], sb_side_names[side + 1]);
-    return SB_OK;
-}
-
-static sb_status warn_source(const sb_scene *scene, const sb_sea_source *sea, sb_model *model, sb_error *error)
-{
-    const bool still = scene->wave.kind == SB_INITIAL_NONE && scene->box_count == 0;
-    const double away = still ? first_height(scene, model, sea) : 0;
-    if (sb_sea_warning(sea)) return sb_model_warn(model, error, "%s", sb_sea_warning(sea));
-    if (fabs(away) > model->spacing)
-        return sb_model_warn(model, error,
-                             "sea: the given water begins %g m from the still water of water.level: a bore enters at "
-                             "once; expected another sea.start or sea.level",
-                             away);
-    if (scene->given.source == SB_GIVEN_NONE) return SB_OK;
-    if (scene->given.source == SB_GIVEN_OFFSHORE) return SB_OK;
-    if (scene->given.source != SB_GIVEN_THEORY) return warn_opposite(scene, model, error);
-    double depth = (double)INFINITY;
-    const int side = nearest_depth(scene, model, &depth);
-    if (fabs(depth - scene->given.depth) <= fmax(SAME_DEPTH * scene->given.depth, model->spacing)) return SB_OK;
-    return sb_model_warn(model, error,
-                         "sea.depth: the wave is that of a depth of %g m, and the water at %s is at most %g m deep; "
-                         "expected the depth at the side",
-                         scene->given.depth, sb_side_names[side], depth);
-}
-
 sb_status sb_model_sea_sides(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     bool any = false;
@@ -176,7 +103,7 @@ sb_status sb_model_sea_sides(const sb_scene *scene, const sb_model_space *space,
         else
             status = check(scene, model, side, highest, error);
     }
-    if (status == SB_OK) status = warn_source(scene, sea, model, error);
+    if (status == SB_OK) status = sb_model_sea_warn(scene, sea, model, error);
     sb_sea_destroy(sea);
     return status;
 }

@@ -22,10 +22,13 @@ void sb_request_settings(const sb_request *request, sb_settings *settings)
     settings->list[settings->count++] = settings->resolution;
     settings->list[settings->count++] = settings->seed;
     settings->list[settings->count++] = "output.plots=false";
-    for (const char *const *more = request->plan->settings; more && *more && settings->count < SB_SETTINGS_MAX - 1;
+    for (const char *const *more = request->plan->settings; more && *more && settings->count < SB_SETTINGS_MAX - 2;
          more++)
         settings->list[settings->count++] = *more;
     if (request->change[0]) settings->list[settings->count++] = request->change;
+    if (!request->replays) return;
+    snprintf(settings->record, sizeof settings->record, "sea.file=%s/record.csv", request->replays);
+    settings->list[settings->count++] = settings->record;
 }
 
 void sb_request_label(const sb_request *request, bool with_case, char label[96])
@@ -42,13 +45,12 @@ sb_status sb_settings_scene(const char *path, const char *preset, const char *co
                             sb_scene *scene, sb_error *error)
 {
     sb_override overrides[SB_SETTINGS_MAX];
-    char texts[SB_SETTINGS_MAX][512];
+    char keys[SB_SETTINGS_MAX][256];
     for (size_t i = 0; i < count; i++) {
-        snprintf(texts[i], sizeof texts[i], "%s", settings[i]);
-        char *equals = strchr(texts[i], '=');
+        const char *equals = strchr(settings[i], '=');
         if (!equals) return sb_fail(error, SB_BAD_INPUT, "%.400s: %s: expected KEY=VALUE", path, settings[i]);
-        *equals = '\0';
-        overrides[i] = (sb_override){.key = texts[i], .value = equals + 1};
+        snprintf(keys[i], sizeof keys[i], "%.*s", (int)(equals - settings[i]), settings[i]);
+        overrides[i] = (sb_override){.key = keys[i], .value = equals + 1};
     }
     return sb_scene_read(path, preset, overrides, count, scene, error);
 }
@@ -61,7 +63,8 @@ static sb_status read_scene(const sb_request *request, const char *path, sb_scen
     const char *preset = sb_request_preset(request);
     sb_request_settings(request, &settings);
     *hash = sb_hash(*hash, preset, strlen(preset));
-    for (size_t i = 0; i < settings.count; i++) *hash = sb_hash(*hash, settings.list[i], strlen(settings.list[i]));
+    const size_t named = settings.count - (request->replays ? 1 : 0);
+    for (size_t i = 0; i < named; i++) *hash = sb_hash(*hash, settings.list[i], strlen(settings.list[i]));
     return sb_settings_scene(path, preset, settings.list, settings.count, scene, error);
 }
 

@@ -2,6 +2,7 @@
 #ifndef SB_FRAMEWORK_REQUEST_H
 #define SB_FRAMEWORK_REQUEST_H
 
+#include "base/file.h"
 #include "case.h"
 
 #include <stdint.h>
@@ -14,12 +15,14 @@ typedef struct sb_request {
     const char *preset; /* "paper" or "wen", beside the judged runs; NULL: the default preset */
     bool quick;
     int seed;
-    char change[64]; /* one more KEY=VALUE, the change of a sensitivity run; "": none */
+    char change[64];     /* one more KEY=VALUE, the change of a sensitivity run; "": none */
+    const char *replays; /* folder of a run whose record.csv is the given sea; NULL: none */
 } sb_request;
 
-/* The settings of a request, in order. The list points into the struct and the plan. */
+/* The settings of a request, in order; a record that is replayed is the last. The list points into the struct and the
+   plan. */
 typedef struct sb_settings {
-    char resolution[48], seed[40];
+    char resolution[48], seed[40], record[SB_PATH_MAX + 32];
     const char *list[SB_SETTINGS_MAX];
     size_t count;
 } sb_settings;
@@ -32,8 +35,9 @@ sb_status sb_settings_scene(const char *path, const char *preset, const char *co
 /* "still-water-box, 0.05 m, paper, seed 1" for messages, or without the case for plots. */
 void sb_request_label(const sb_request *request, bool with_case, char label[96]);
 
-/* Continues a hash by the request: the scene's text, the files that it names, and all settings. assets: folder that the
-   scene's path is relative to. SB_BAD_INPUT: the scene cannot be read with these settings. */
+/* Continues a hash by the request: the scene's text, the files that it names, and all settings; of a record that is
+   replayed its contents, not its place. assets: folder that the scene's path is relative to. SB_BAD_INPUT: the scene
+   cannot be read with these settings. */
 sb_status sb_request_hash(const sb_request *request, const char *assets, uint64_t *hash, sb_error *error);
 
 /* Hash of a scene with every default filled in, without its bodies and wave makers, whose files may have moved. The

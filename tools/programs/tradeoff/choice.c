@@ -39,6 +39,10 @@ const sb_choice sb_choices[] = {
      .fixed = {"domain.min=[400, 0, -38]", "measure.map.min=[400, 0]"}},
     {.name = "sea nested from x = 250, two-way", .subject = "plant", .scene = "../scenes/plant-coast.yaml",
      .fixed = {"domain.min=[250, 0, -38]", "offshore.coupling=two-way"}},
+    {.name = "sea replayed from x = 400", .quick = true, .subject = "plant", .scene = "../scenes/plant-coast.yaml",
+     .records = "measure.planes=[{name: line, from: [400, 0], to: [400, 1150], record: true}]",
+     .fixed = {"domain.min=[400, 0, -38]", "measure.map.min=[400, 0]", "offshore=null", "measure.gauges.offshore=null",
+               "measure.gauges.slope=null", "sea={source: record, plane: line}"}},
     {.name = "no settling", .fixed = {"numerics.settle_steps=0"}},
     /* What the preset `wen` changes: a choice has the preset `default` or `paper`. */
     {.name = "wcsph", .quick = true, .slow = true,

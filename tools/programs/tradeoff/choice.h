@@ -15,7 +15,8 @@ typedef struct sb_choice {
     const char *key;                    /* of the sensitivity study's table of defaults; NULL: none */
     double factor;                      /* of that default */
     const char *subject;                /* the only subject that has this row; NULL: all */
-    const char *scene; /* its scene instead of the subject's, relative to assets/validation; NULL: none */
+    const char *scene;   /* its scene instead of the subject's, relative to assets/validation; NULL: none */
+    const char *records; /* KEY=VALUE of a run of the subject's scene whose record is the sea of this one; NULL: none */
 } sb_choice;
 
 /* The first is the unchanged default preset. */

@@ -37,6 +37,23 @@ static void put_entry(FILE *out, const sb_contest *c, const sb_entry *e)
     fprintf(out, " %s |\n", e->front ? "**yes**" : "");
 }
 
+/* What the records of the replays have cost, and were not counted. Returns the number of items. */
+static size_t put_records(FILE *out, const sb_contest *c)
+{
+    size_t count = 0;
+    for (const sb_entry *e = c->entries; e < c->entries + c->entry_count; e++) {
+        char mean[48];
+        if (isnan(e->record_time.mean)) continue;
+        sb_text_number(mean, e->record_time.mean);
+        fprintf(out,
+                "- %s, %g m: its time is that of the replay; the run of the whole scene whose record it replays took "
+                "%s s\n",
+                name_of(e), e->plan.resolution, mean);
+        count++;
+    }
+    return count;
+}
+
 static void put_contest(FILE *out, const sb_contest_report *r, const sb_contest *c)
 {
     const bool cpu = sb_contest_cpu(r->store);
@@ -52,7 +69,7 @@ static void put_contest(FILE *out, const sb_contest_report *r, const sb_contest 
     sb_put_rule(out, c->error_count + 7);
     for (size_t i = 0; i < c->entry_count; i++) put_entry(out, c, &c->entries[i]);
     fputc('\n', out);
-    size_t missing = 0, failed = 0, otherwise = 0;
+    size_t missing = 0, failed = 0, otherwise = 0, records = put_records(out, c);
     for (size_t i = 0; i < c->trial_count; i++) {
         missing += c->trials[i].state == SB_RESULT_NOT_RUN;
         failed += c->trials[i].state == SB_RESULT_FAILED && sb_runs_problem(out, &c->trials[i]);
@@ -62,7 +79,7 @@ static void put_contest(FILE *out, const sb_contest_report *r, const sb_contest 
     if (otherwise)
         fprintf(out, "- %zu runs did not have %d threads: their run times are omitted\n", otherwise, c->threads);
     if (missing) fprintf(out, "- %zu of %zu runs are missing\n", missing, c->trial_count);
-    if (missing + failed + otherwise) fputc('\n', out);
+    if (missing + failed + otherwise + records) fputc('\n', out);
 }
 
 static const char reading[] =
@@ -139,7 +156,7 @@ static void put_csv(FILE *out, const void *report)
 {
     const sb_contest_report *r = report;
     fputs("scene,choice,spacing_m,seed,threads,particles,steps,sweeps_per_step,run_time_s,cpu_s,load,error,unit,"
-          "value,mean,least,most,front,commit,machine\n",
+          "value,mean,least,most,front,commit,machine,record_run_time_s,record_cpu_s\n",
           out);
     for (size_t n = 0; n < r->count; n++) {
         const sb_contest *c = &r->contests[n];
@@ -148,15 +165,18 @@ static void put_csv(FILE *out, const void *report)
                 for (size_t k = 0; k < c->error_count; k++) {
                     const sb_entry *e = &c->entries[i];
                     const sb_finished *run = &c->trials[t].run;
+                    const sb_result *record = sb_contest_record(c, e, t);
                     if (c->trials[t].state != SB_RESULT_DONE) continue;
                     fprintf(
                         out,
-                        "%s,\"%s\",%g,%d,%d,%zu,%zu,%.3f,%.3f,%.3f,%.2f,\"%s\",%s,%.5g,%.5g,%.5g,%.5g,%s,%s,\"%s\"\n",
+                        "%s,\"%s\",%g,%d,%d,%zu,%zu,%.3f,%.3f,%.3f,%.2f,\"%s\",%s,%.5g,%.5g,%.5g,%.5g,%s,%s,\"%s\",",
                         c->subject->name, name_of(e), e->plan.resolution, c->trials[t].request.seed, run->threads,
                         run->view.particles, run->view.steps, run->view.iterations, run->view.wall, run->cpu, run->load,
                         c->subject->errors[k].name, c->subject->errors[k].unit, c->trial_errors[t][k],
                         e->errors[k].mean, e->errors[k].low, e->errors[k].high, e->front ? "yes" : "no", run->commit,
                         run->machine);
+                    if (record) fprintf(out, "%.3f,%.3f", record->run.view.wall, record->run.cpu);
+                    fputs(record ? "\n" : ",\n", out);
                 }
     }
 }

@@ -61,6 +61,7 @@ static void add(sb_contest *c, const sb_choice *choice, double spacing, const sb
                                 .seed = seed};
         snprintf(request->change, sizeof request->change, "%s", e->change);
     }
+    sb_contest_add_records(c, e);
 }
 
 static bool is_selected(const sb_contest_selection *selection, const double *spacings, size_t i)
@@ -92,8 +93,9 @@ sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_st
     c->entries = sb_alloc(most, sizeof *c->entries);
     const size_t runs = most * (size_t)selection->seeds + SB_REFERENCE_SEEDS;
     c->trials = sb_alloc(runs, sizeof *c->trials);
+    c->records = sb_alloc(runs, sizeof *c->records);
     c->trial_errors = sb_alloc(runs, sizeof *c->trial_errors);
-    if (!c->entries || !c->trials || !c->trial_errors) {
+    if (!c->entries || !c->trials || !c->records || !c->trial_errors) {
         sb_contest_free(c);
         return sb_fail_memory(error, "runs");
     }
@@ -131,9 +133,13 @@ static double error_of(const sb_contest *c, const sb_entry *e, size_t trial, siz
 static void judge_entry(const sb_contest *c, sb_entry *e, bool cpu, const sb_figures *const *references, size_t count,
                         bool missing)
 {
-    e->time = sb_spread_none;
-    for (size_t i = e->first; i < e->first + e->seeds; i++)
-        if (c->trials[i].state == SB_RESULT_DONE) sb_spread_add(&e->time, time_of(&c->trials[i], cpu, c->threads));
+    e->time = e->record_time = sb_spread_none;
+    for (size_t i = e->first; i < e->first + e->seeds; i++) {
+        const sb_result *record = sb_contest_record(c, e, i);
+        if (c->trials[i].state != SB_RESULT_DONE) continue;
+        sb_spread_add(&e->time, time_of(&c->trials[i], cpu, c->threads));
+        if (record) sb_spread_add(&e->record_time, time_of(record, cpu, c->threads));
+    }
     for (size_t k = 0; k < c->error_count; k++) {
         e->errors[k] = sb_spread_none;
         for (size_t i = e->first; i < e->first + e->seeds; i++) {
@@ -192,7 +198,9 @@ sb_status sb_contest_judge(sb_contest *c, bool cpu, sb_error *error)
 void sb_contest_free(sb_contest *c)
 {
     sb_results_free(c->trials, c->trial_count);
+    sb_results_free(c->records, c->record_count);
     sb_free(c->trials);
+    sb_free(c->records);
     sb_free(c->trial_errors);
     sb_free(c->entries);
     *c = (sb_contest){0};

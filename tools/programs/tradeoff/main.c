@@ -108,7 +108,7 @@ static sb_status run(const options *o, sb_contest *contests, int *result, sb_err
         sb_store_open(&store, &o->common, SB_SOURCE_DIR "/build/tradeoff", "assets/validation", false, error);
     if (status == SB_OK) status = begin(o, &store, &report, contests, error);
     for (sb_contest *c = contests; status == SB_OK && c < contests + report.count; c++) {
-        status = sb_runs_make(&store, c->trials, c->trial_count, error);
+        status = sb_contest_make(c, &store, error);
         if (status == SB_OK) status = sb_contest_judge(c, sb_contest_cpu(&store), error);
     }
     /* A report of some scenes or choices must not replace that of all. */

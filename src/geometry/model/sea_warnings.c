@@ -1,0 +1,189 @@
+/* What can run beside sides of kind sea, but is probably not meant. */
+#include "geometry/model/parts.h"
+
+#include "offshore/offshore.h"
+
+#include <math.h>
+
+/* Part of the depth by which the theory's depth may differ from that at the side without a warning. */
+static const double SAME_DEPTH = 0.05;
+
+/* The same for the mean depth of a grid along a side: a step of this size reflects 2.6 % of a long wave. */
+static const double OTHER_DEPTH = 0.1;
+
+/* Where the given surface at t = 0 is farthest from the still level. */
+typedef struct farthest {
+    double height; /* m, over the still level; 0 where all sides are dry */
+    sb_vec3 at;
+    double bed;
+    bool dry; /* the source has no water there */
+} farthest;
+
+static farthest first_height(const sb_scene *scene, const sb_model *model, const sb_sea_source *sea)
+{
+    farthest found = {0};
+    for (int side = 0; side < 4; side++) {
+        const sb_model_sea *ground = &model->sea[side];
+        for (size_t c = 0; sb_scene_given_side(scene, side) && c < ground->along; c++) {
+            const double bed = ground->bed[c * ground->across];
+            const sb_vec3 at = sb_model_sea_place(model, side, 0, ((double)c + 0.5) * ground->pitch);
+            sb_sea_point water;
+            sb_sea_at(sea, 0, at.x, at.y, scene->sea.level, bed, &water);
+            const double away = fmax(water.surface, bed) - fmax(scene->sea.level, bed);
+            if (fabs(away) > fabs(found.height)) found = (farthest){away, at, bed, !(water.surface > bed)};
+        }
+    }
+    return found;
+}
+
+/* The side whose deepest ground is nearest to the depth of the theory; that depth. */
+static int nearest_depth(const sb_scene *scene, const sb_model *model, double *depth)
+{
+    int found = 0;
+    for (int side = 0; side < 4; side++) {
+        const sb_model_sea *ground = &model->sea[side];
+        double lowest = (double)INFINITY;
+        for (size_t c = 0; c < ground->along; c++) lowest = fmin(lowest, ground->bed[c * ground->across]);
+        const double here = scene->given.level - lowest;
+        if (!sb_scene_given_side(scene, side) || fabs(here - scene->given.depth) >= fabs(*depth - scene->given.depth))
+            continue;
+        *depth = here;
+        found = side;
+    }
+    return found;
+}
+
+/* A table or a record is the water along one line. */
+static sb_status warn_opposite(const sb_scene *scene, sb_model *model, sb_error *error)
+{
+    for (int side = 0; side < 4; side += 2)
+        if (sb_scene_given_side(scene, side) && sb_scene_given_side(scene, side + 1))
+            return sb_model_warn(model, error,
+                                 "sea.sides: the water of the file is given at %s and at the opposite %s at the same "
+                                 "time; expected still where waves only leave, such as {%s: still}",
+                                 sb_side_names[side], sb_side_names[side + 1], sb_side_names[side + 1]);
+    return SB_OK;
+}
+
+/* Warns of a source whose first water is not the still water. */
+static sb_status warn_first(const sb_scene *scene, const farthest *f, sb_model *model, sb_error *error)
+{
+    if (sb_scene_nested(scene) && f->dry)
+        return sb_model_warn(
+            model, error,
+            "sea: the grid has no water around (%g, %g), where the ground is at %g m, below water.level: "
+            "the water there runs out through the side; expected a smaller offshore.cell than %g m, or a "
+            "terrain that has this water",
+            f->at.x, f->at.y, f->bed, scene->offshore.cell);
+    return sb_model_warn(model, error,
+                         "sea: the given water begins %g m from the still water of water.level: a bore enters at "
+                         "once; expected another sea.start or sea.level",
+                         f->height);
+}
+
+/* Whether a source leaves less than a spacing of water at time t on a column that has SB_SEA_DEEP layers at the start,
+   at PLACES columns of a side at most. */
+static bool falls_dry(const sb_model *model, const sb_sea_source *sea, int side, double t, farthest *found)
+{
+    enum { PLACES = 16 };
+    const sb_model_sea *ground = &model->sea[side];
+    const size_t step = ground->along / PLACES + 1;
+    for (size_t c = 0; c < ground->along; c += step) {
+        const double bed = ground->bed[c * ground->across];
+        const sb_vec3 at = sb_model_sea_place(model, side, 0, ((double)c + 0.5) * ground->pitch);
+        sb_sea_point first, water;
+        sb_sea_at(sea, 0, at.x, at.y, bed, bed, &first);
+        sb_sea_at(sea, t, at.x, at.y, bed, bed, &water);
+        if (round((first.surface - bed) / model->spacing) < SB_SEA_DEEP || water.surface - bed >= model->spacing)
+            continue;
+        *found = (farthest){.height = water.surface, .at = at, .bed = bed};
+        return true;
+    }
+    return false;
+}
+
+/* Warns of a source that will dry a strip: the run ends there (sim/sea/inflow.c). */
+static sb_status warn_dry(const sb_scene *scene, const sb_sea_source *sea, sb_model *model, sb_error *error)
+{
+    enum { TIMES = 1000 };
+    for (int k = 1; k <= TIMES; k++)
+        for (int side = 0; side < 4; side++) {
+            const double t = scene->duration * k / TIMES;
+            farthest f;
+            if (!sb_scene_given_side(scene, side) || !falls_dry(model, sea, side, t, &f)) continue;
+            return sb_model_warn(
+                model, error,
+                "sea: at %.4g s the given water at %s falls to %.4g m at (%g, %g), over ground at %g m: the "
+                "strip would be dry, and the run ends there; expected at least one spacing of water, or a "
+                "side in deeper water",
+                t, sb_side_names[side], f.height, f.at.x, f.at.y, f.bed);
+        }
+    return SB_OK;
+}
+
+/* Mean depths of still water along a side, m: of the particles, and of the grid. */
+static void mean_depths(const sb_scene *scene, const sb_model *model, const sb_offshore *grid, int side,
+                        double depth[2])
+{
+    const sb_model_sea *ground = &model->sea[side];
+    depth[0] = depth[1] = 0;
+    for (size_t c = 0; c < ground->along; c++) {
+        const sb_vec3 at = sb_model_sea_place(model, side, 0, ((double)c + 0.5) * ground->pitch);
+        const double bed[2] = {ground->bed[c * ground->across], sb_offshore_at(grid, at.x, at.y).bed};
+        for (int k = 0; k < 2; k++) depth[k] += fmax(scene->sea.level - bed[k], 0) / (double)ground->along;
+    }
+}
+
+/* Warns of a grid whose water is not as deep as that of the particles, as with another vertical datum. */
+static sb_status warn_other_bed(const sb_scene *scene, const sb_offshore *grid, sb_model *model, sb_error *error)
+{
+    for (int side = 0; side < 4; side++) {
+        double depth[2];
+        if (!sb_scene_given_side(scene, side)) continue;
+        mean_depths(scene, model, grid, side, depth);
+        if (fabs(depth[1] - depth[0]) <= fmax(OTHER_DEPTH * depth[0], model->spacing)) continue;
+        return sb_model_warn(
+            model, error,
+            "sea: at %s the water of the grid is %.4g m deep in the mean, and that of the particles %.4g m: a "
+            "part of each wave is reflected there; expected the same ground; check datum, scale and positive "
+            "of offshore.terrain, and offshore.cell",
+            sb_side_names[side], depth[1], depth[0]);
+    }
+    return SB_OK;
+}
+
+/* Warns of a theory whose depth is not that at the side. */
+static sb_status warn_depth(const sb_scene *scene, sb_model *model, sb_error *error)
+{
+    double depth = (double)INFINITY;
+    const int side = nearest_depth(scene, model, &depth);
+    if (fabs(depth - scene->given.depth) <= fmax(SAME_DEPTH * scene->given.depth, model->spacing)) return SB_OK;
+    return sb_model_warn(model, error,
+                         "sea.depth: the wave is that of a depth of %g m, and the water at %s is at most %g m deep; "
+                         "expected the depth at the side",
+                         scene->given.depth, sb_side_names[side], depth);
+}
+
+sb_status sb_model_sea_warn(const sb_scene *scene, sb_sea_source *sea, sb_model *model, sb_error *error)
+{
+    const bool still = scene->wave.kind == SB_INITIAL_NONE && scene->box_count == 0;
+    const farthest first = still ? first_height(scene, model, sea) : (farthest){0};
+    if (sb_sea_warning(sea)) return sb_model_warn(model, error, "%s", sb_sea_warning(sea));
+    if (fabs(first.height) > model->spacing) return warn_first(scene, &first, model, error);
+    switch (scene->given.source) {
+    case SB_GIVEN_NONE:
+        return SB_OK;
+    case SB_GIVEN_OFFSHORE:
+        return warn_other_bed(scene, sb_sea_grid(sea), model, error);
+    case SB_GIVEN_TABLE:
+    case SB_GIVEN_RECORD: {
+        const sb_status status = warn_opposite(scene, model, error);
+        return status == SB_OK ? warn_dry(scene, sea, model, error) : status;
+    }
+    case SB_GIVEN_THEORY: {
+        const sb_status status = warn_depth(scene, model, error);
+        return status == SB_OK ? warn_dry(scene, sea, model, error) : status;
+    }
+    }
+    return SB_OK;
+}
