@@ -166,6 +166,25 @@ static void still_water_rests_beside_a_quay(void **state)
     assert_near(highest_at("quay", "face", 0, 2, &(double){0}), 0, 0.001);
 }
 
+/* Water runs off over a sill into a dry basin 30 m long until the side has less than a spacing of it: there is no more
+   to come in, and the rest leaves. */
+static void the_side_may_fall_dry(void **state)
+{
+    (void)state;
+    write_text("sink.asc", "ncols 2\nnrows 2\nxllcenter -40\nyllcenter -20\ncellsize 39.5\nNODATA_value -9\n"
+                           "-0.21 -0.21\n-0.21 -0.21\n");
+    write_text(
+        "dry.yaml", HEAD
+        "bodies: [{name: sill, shape: box, min: [-40, -1], max: [5, 0.2]}]\n"
+        "offshore: {cell: 0.04, min: [-34], max: [4], manning: 0, uplift: {file: sink.asc}, sides: {x_min: wall}}\n");
+    RUN_AND_FORGET(0, "run", "dry.yaml", "--out", "dry", "--quiet", "--set", "duration=14");
+    char *summary = text_of("dry/summary.json");
+    assert_contains(summary, "\"lost_particles\": 0");
+    sb_free(summary);
+    assert_true(highest_between("dry", 13, 14) < -0.16);
+    assert_true(volume_of_particles("dry", "\"energy_end\"") < 0.2 * volume_of_particles("dry", "\"energy_start\""));
+}
+
 /* A channel between the centres of the grid's cells: the grid has none of its water. */
 static void water_that_the_grid_lacks_is_named(void **state)
 {
@@ -325,6 +344,7 @@ int main(void)
         cmocka_unit_test(bits_are_those_of_any_threads_and_of_a_resumed_run),
         cmocka_unit_test(water_at_rest_stays),
         cmocka_unit_test(still_water_rests_beside_a_quay),
+        cmocka_unit_test(the_side_may_fall_dry),
         cmocka_unit_test(water_that_the_grid_lacks_is_named),
         cmocka_unit_test(another_depth_of_the_grid_is_named),
         cmocka_unit_test(gauges_and_maps_of_the_grid),

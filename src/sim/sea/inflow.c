@@ -192,14 +192,15 @@ static float correction_of(const sb_strip_side *s, size_t column, size_t row)
     return s->correction[column * s->rows + sb_strip_row((double)row + 0.5, 0, s->row_count[column], still)];
 }
 
-/* Refuses a source whose water falls dry where there are SB_SEA_DEEP layers at rest. */
+/* Refuses a theory, table or record whose water falls dry where there are SB_SEA_DEEP layers at rest: it is probably
+   meant otherwise. A grid computes where its water falls dry. */
 static sb_status check_depth(const sb_sim *sim, const sb_strip_side *s, size_t column, sb_error *error)
 {
     const double along = ((double)column + 0.5) * sim->model->sea[s->side].pitch, bed = sb_strip_bed(sim, s, 0, along);
     sb_vec3 at = sb_model_sea_place(sim->model, s->side, 0, along);
     sb_sea_point point;
     at.z = bed;
-    if (s->still_rows[column] < SB_SEA_DEEP) return SB_OK;
+    if (s->still_rows[column] < SB_SEA_DEEP || sim->scene->given.source == SB_GIVEN_OFFSHORE) return SB_OK;
     sb_strip_source(sim, s, sim->state.time, at, bed, &point);
     if (point.surface - bed >= sim->scene->resolution) return SB_OK;
     return sb_fail(
