@@ -21,9 +21,9 @@ bool sb_reached_shown(const sb_scene *scene);
 /* Cells on each side of the map in pictures of this size (m, as sb_light.size). */
 int sb_reached_side(double size, double spacing);
 
-/* Adds the water of a frame, in three dimensions (flat is false) without drops and rows of particles. The frame that was
-   added last is not added again, and one that is earlier begins the map anew. map: as for sb_tops_add. SB_BAD_INPUT: it
-   has water already with another number of cells than `side`. */
+/* Adds the water of a frame, in three dimensions (flat is false) without drops and rows of particles. The frame that
+   was added last is not added again, and one that is earlier begins the map anew. map: as for sb_tops_add.
+   SB_BAD_INPUT: it has water already with another number of cells than `side`. */
 sb_status sb_reached_add(sb_reached *reached, int side, const sb_frame *frame, const sb_density *density, bool flat,
                          float map[3][4], sb_error *error);
 
