@@ -247,6 +247,34 @@ static double difference(const char *a, const char *b, bool plots)
     return (double)unlike / (double)count;
 }
 
+/* Pictures with all that a run stores for them are those of the run; only a body that moves is where the step left it.
+ */
+static void render_draws_the_same_effects(void **state)
+{
+    (void)state;
+    static const char *const set[] = {"--set",
+                                      "render.loads=true",
+                                      "--set",
+                                      "foam.enabled=true",
+                                      "--set",
+                                      "output.checkpoint.steps=0",
+                                      "--set",
+                                      "render.cameras=[{name: house, eye: [-0.6, -0.9, 1.4], target: [0.35, 0.45, "
+                                      "0.4], color: density_error}, {name: balls, eye: [0.4, -2, 1.2], target: [0.4, "
+                                      "0.4, 0.3], slice: {point: [0.4, 0.5, 0.3], normal: [0, 1, 0], vectors: 0.2}}]"};
+    write_text("painted.yaml", painted);
+    RUN_AND_FORGET(0, "run", "painted.yaml", "--out", "effects", "--quiet", set[0], set[1], set[2], set[3], set[4],
+                   set[5], set[6], set[7]);
+    outcome o = RUN(0, "render", "effects", "--out", "effects-again", "--quiet", "--set", "render.stills=[]");
+    assert_string_equal(o.err, "");
+    outcome_free(&o);
+    assert_true(exists("effects/foam/000007.vtp"));
+    assert_same_pictures("effects", "effects-again", "frames", 1, 7);
+    /* The still at 0.1 s, which is left out, adds nothing: the water falls. */
+    RUN_AND_FORGET(0, "render", "whole", "--out", "whole-again", "--quiet", "--set", "render.stills=[]");
+    assert_same_pictures("whole", "whole-again", "frames", 1, 7);
+}
+
 /* `render` carries the water of the particle files to the same times, and has the plots from the tables. */
 static void render_draws_the_same_pictures(void **state)
 {
@@ -350,6 +378,7 @@ int main(void)
         cmocka_unit_test(a_resumed_run_has_the_same_pictures),
         cmocka_unit_test(what_water_reached_survives_a_kill),
         cmocka_unit_test(render_draws_the_same_pictures),
+        cmocka_unit_test(render_draws_the_same_effects),
         cmocka_unit_test(render_draws_stills),
         cmocka_unit_test(water_of_the_grid_joins_that_of_particles),
     };
