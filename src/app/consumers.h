@@ -12,6 +12,7 @@
 #include "output/runlog.h"
 #include "render/cameras.h"
 #include "render/image.h"
+#include "render/reached.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
 #include "stream/stream.h"
@@ -57,6 +58,7 @@ typedef struct sb_pictures {
     sb_camera_motion *motions; /* by camera, owned */
     sb_poses poses;            /* for the renderers */
     sb_insets insets;
+    sb_reached reached; /* the highest water of all pictures so far, of film and stills */
     sb_renderer *renderer;
     sb_image image;
     sb_picture_set film, stills;
@@ -67,8 +69,8 @@ sb_status sb_pictures_begin(sb_pictures *pictures, const sb_scene *scene, const 
                             sb_error *error);
 void sb_pictures_free(sb_pictures *pictures);
 sb_consumer_work sb_pictures_work(sb_pictures *pictures);
-/* Call these while the thread is idle or not started: they write and read the motions of cameras, the counts, and the
-   rows of insets within a section of an archive. */
+/* Call these while the thread is idle or not started: they write and read the motions of cameras, the counts, the rows
+   of insets, and the highest water if the scene shows it, within a section of an archive. */
 void sb_pictures_save(sb_pictures *pictures, sb_archive_out *out);
 sb_status sb_pictures_load(sb_pictures *pictures, sb_archive_in *in, sb_error *error);
 /* Call this while the thread is idle or not started: syncs the pictures to disk and counts those that were removed. The

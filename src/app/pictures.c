@@ -38,6 +38,7 @@ void sb_pictures_free(sb_pictures *pictures)
     sb_free(pictures->motions);
     sb_insets_free(&pictures->insets);
     sb_poses_free(&pictures->poses);
+    sb_reached_free(&pictures->reached);
     pictures->motions = NULL;
 }
 
@@ -60,7 +61,9 @@ static sb_status clear_later(const sb_pictures *pictures, sb_picture_set *set, s
 static sb_status make_renderer(sb_pictures *pictures, sb_error *error)
 {
     if (pictures->renderer) return SB_OK;
-    return sb_renderer_create(&pictures->poses.scene, pictures->model, &pictures->renderer, error);
+    const sb_status status = sb_renderer_create(&pictures->poses.scene, pictures->model, &pictures->renderer, error);
+    if (status == SB_OK) sb_renderer_share(pictures->renderer, &pictures->reached);
+    return status;
 }
 
 static sb_status open_pictures(void *state, sb_error *error)
@@ -138,7 +141,10 @@ static sb_status draw_still(sb_pictures *pictures, const sb_frame *frame, sb_err
     scene.render.width = scene.render.still_width;
     scene.render.height = scene.render.still_height;
     sb_status status = sb_renderer_create(&scene, pictures->model, &renderer, error);
-    if (status == SB_OK) status = draw_set(pictures, &pictures->stills, &scene, renderer, frame, error);
+    if (status == SB_OK) {
+        sb_renderer_share(renderer, &pictures->reached);
+        status = draw_set(pictures, &pictures->stills, &scene, renderer, frame, error);
+    }
     sb_renderer_destroy(renderer);
     return status;
 }
@@ -200,6 +206,7 @@ void sb_pictures_save(sb_pictures *pictures, sb_archive_out *out)
         sb_put_real(out, motion->speed);
     }
     sb_insets_save(&pictures->insets, out);
+    if (pictures->motions && sb_reached_shown(pictures->scene)) sb_reached_save(&pictures->reached, out);
 }
 
 sb_status sb_pictures_load(sb_pictures *pictures, sb_archive_in *in, sb_error *error)
@@ -216,7 +223,10 @@ sb_status sb_pictures_load(sb_pictures *pictures, sb_archive_in *in, sb_error *e
             sb_archive_refuse(in, "camera %s is nowhere, expected finite numbers",
                               pictures->scene->render.cameras[c].name);
     }
-    return sb_insets_load(&pictures->insets, in, error);
+    const sb_status status = sb_insets_load(&pictures->insets, in, error);
+    const bool reached = pictures->motions && sb_reached_shown(pictures->scene);
+    return status == SB_OK && reached ? sb_reached_load(&pictures->reached, pictures->scene, pictures->model, in, error)
+                                      : status;
 }
 
 static void close_pictures(void *state)

@@ -240,8 +240,8 @@ static void bind_textures(const sb_compose *compose, const sb_parts *parts, GLui
     sb_uniform_texture(program, "cover", 6, parts->water->cover);
     sb_uniform_texture(program, "colors", 7, compose->colors[parts->map]);
     sb_uniform_texture(program, "deep_colors", 8, compose->colors[SB_COLORMAP_DEEP]);
-    sb_uniform_texture(program, "shade", 9, parts->shade->texture);
-    sb_uniform_texture(program, "reached", 10, parts->reached ? parts->reached->texture : parts->shade->texture);
+    sb_uniform_texture(program, "shade", 9, parts->shade);
+    sb_uniform_texture(program, "reached", 10, parts->reached ? parts->reached : parts->shade);
     sb_uniform_texture(program, "occlusion", 11, parts->occlusion ? parts->occlusion->texture[0] : 0);
     if (parts->foam) sb_uniform_texture(program, "foam", 12, parts->foam);
 }

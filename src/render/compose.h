@@ -23,9 +23,9 @@ typedef struct sb_parts {
     const float *kinds;            /* as in kinds.h, per pixel; NULL: OpenGL finds them */
     GLuint kind_depth;             /* texture of the depths of the bound framebuffer, which kinds replace */
     GLuint foam;                   /* texture of sb_foam_layer.pixels; 0: the picture has none */
-    const sb_tops *shade;          /* the water as seen from the sun */
+    GLuint shade;                  /* texture of the water as seen from the sun */
     double shade_bias;             /* heights of `shade` by which water does not shade itself */
-    const sb_tops *reached;        /* highest water so far, m above the light's origin; NULL without the next two */
+    GLuint reached;                /* of the highest water so far, m above the light's origin; 0 without the next two */
     bool wet;                      /* ground and bodies that the water has reached are darker */
     bool painted;                  /* paint the greatest depth on the ground and on bodies */
     bool loaded;                   /* bodies have colours of loads: both are on terrain only */

@@ -213,14 +213,19 @@ static sb_status make_shadow(const sb_meshes *meshes, sb_vec3 min, sb_vec3 max, 
     return draw_depth_map(meshes, light->shadow, SHADOW_SIDE, clip, error);
 }
 
+double sb_light_size(sb_vec3 min, sb_vec3 max)
+{
+    const double size = sb_norm(sb_sub(max, min));
+    return size > 0 ? size : 1;
+}
+
 sb_status sb_light_create(const sb_meshes *meshes, sb_vec3 origin, sb_vec3 min, sb_vec3 max, double sea_level,
                           sb_light *light, sb_error *error)
 {
     sb_light made = {.origin = origin, .sea_level = sea_level, .solid.origin = origin};
     min = sb_sub(min, origin);
     max = sb_sub(max, origin);
-    made.size = sb_norm(sb_sub(max, min));
-    made.size = made.size > 0 ? made.size : 1;
+    made.size = sb_light_size(min, max);
     sb_status status = make_shadow(meshes, min, max, &made, error);
     if (status == SB_OK) status = make_ground(meshes, min, max, &made, error);
     if (status == SB_OK)

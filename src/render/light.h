@@ -35,6 +35,9 @@ sb_status sb_light_create(const sb_meshes *meshes, sb_vec3 origin, sb_vec3 min, 
                           sb_light *light, sb_error *error);
 void sb_light_destroy(sb_light *light);
 
+/* Returns sb_light.size of a box, whose corners are relative to the light's origin. */
+double sb_light_size(sb_vec3 min, sb_vec3 max);
+
 /* Sets the uniforms of sb_light_source for the program in use. Uses the texture units 4 and 5. */
 void sb_light_bind(const sb_light *light, const sb_view *view, GLuint program);
 

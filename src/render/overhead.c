@@ -3,37 +3,29 @@
 
 #include <math.h>
 
-enum { SIDE_MAX = 1024 };
-
-/* Cells of about a spacing over the lit box, so that no water falls between them. */
-static int side_of(const sb_light *light, double spacing)
+/* Copies a map to its texture, which it makes when there is none. */
+static void upload(const sb_tops *tops, GLuint *texture)
 {
-    const double side = light->size / (1.3 * spacing);
-    return side < 8 ? 8 : side > SIDE_MAX ? SIDE_MAX : (int)side;
+    if (*texture == 0)
+        *texture = sb_texture_create(GL_R32F, tops->side, tops->side, GL_RED, GL_FLOAT, tops->top, GL_NEAREST);
+    sb_gl.BindTexture(GL_TEXTURE_2D, *texture);
+    sb_gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, tops->side, tops->side, 0, GL_RED, GL_FLOAT, tops->top);
 }
 
 static sb_status add_reached(sb_overhead *o, const sb_light *light, const sb_frame *frame, const sb_density *density,
                              sb_error *error)
 {
-    if (o->begun && !(frame->status.time != o->reached_time)) return SB_OK;
-    if (o->reached.side == 0) {
-        sb_status status = sb_tops_create(side_of(light, frame->spacing), &o->reached, error);
-        if (status != SB_OK) return status;
-    }
-    if (o->begun && frame->status.time < o->reached_time) sb_tops_clear(&o->reached);
-    o->begun = true;
-    o->reached_time = frame->status.time;
     const sb_vec3 shift = sb_sub(frame->origin, light->origin);
     const float *corner = light->ground_frame, scale = corner[2];
     float map[3][4] = {{scale, 0, 0, ((float)shift.x - corner[0]) * scale},
                        {0, scale, 0, ((float)shift.y - corner[1]) * scale},
                        {0, 0, 1, (float)(shift.z + 0.5 * frame->spacing)}};
-    sb_status status = SB_OK;
-    if (o->flat)
-        sb_tops_add(&o->reached, frame, density, 0.14f, map);
-    else
-        status = sb_tops_add_areas(&o->reached, frame, density, 0.14f, map, error);
-    if (status == SB_OK) sb_tops_upload(&o->reached);
+    const int side = sb_reached_side(light->size, frame->spacing);
+    const sb_status status = sb_reached_add(o->reached, side, frame, density, o->flat, map, error);
+    if (status == SB_OK && o->uploaded != o->reached->changes) {
+        upload(&o->reached->tops, &o->reached_map);
+        o->uploaded = o->reached->changes;
+    }
     return status;
 }
 
@@ -42,9 +34,10 @@ static sb_status find_shade(sb_overhead *o, const sb_light *light, const sb_fram
                             sb_error *error)
 {
     if (o->shade.side == 0) {
-        const int side = light->shadows ? side_of(light, frame->spacing) : 1;
+        const int side = light->shadows ? sb_reached_side(light->size, frame->spacing) : 1;
         sb_status status = sb_tops_create(side, &o->shade, error);
         if (status != SB_OK) return status;
+        upload(&o->shade, &o->shade_map);
     }
     if (!light->shadows) return SB_OK;
     const sb_vec3 shift = sb_sub(frame->origin, light->origin);
@@ -57,7 +50,7 @@ static sb_status find_shade(sb_overhead *o, const sb_light *light, const sb_fram
     }
     sb_tops_clear(&o->shade);
     sb_tops_add(&o->shade, frame, density, 0.35f, map);
-    sb_tops_upload(&o->shade);
+    upload(&o->shade, &o->shade_map);
     return SB_OK;
 }
 
@@ -70,8 +63,9 @@ sb_status sb_overhead_update(sb_overhead *overhead, const sb_light *light, const
 
 void sb_overhead_destroy(sb_overhead *overhead)
 {
-    sb_tops_destroy(&overhead->shade);
-    sb_tops_destroy(&overhead->reached);
+    sb_gl.DeleteTextures(1, &overhead->shade_map);
+    sb_gl.DeleteTextures(1, &overhead->reached_map);
+    sb_tops_free(&overhead->shade);
 }
 
 double sb_overhead_scale(const sb_light *light)

@@ -3,19 +3,19 @@
 #define SB_RENDER_OVERHEAD_H
 
 #include "render/light.h"
-#include "render/tops.h"
+#include "render/reached.h"
 
 /* A zeroed struct is empty. */
 typedef struct sb_overhead {
-    sb_tops shade, reached;
+    sb_tops shade;
+    sb_reached *reached; /* not owned; set by the owner */
+    uint64_t uploaded;   /* number of the change of it that the texture has */
+    GLuint shade_map, reached_map;
     bool flat; /* the scene has two dimensions: its water is one row of cells; set by the owner */
-    bool begun;
-    double reached_time; /* s, of the frame that was added last */
 } sb_overhead;
 
-/* Finds the shadows of the frame's water, and adds the frame to the highest water so far if `reaches` is true, in three
-   dimensions without drops and rows of particles. A frame that is earlier than the last one begins it anew. density: of
-   the frame. The context must be current. */
+/* Finds the shadows of the frame's water, and adds the frame to the highest water so far if `reaches` is true. density:
+   of the frame. The context must be current. */
 sb_status sb_overhead_update(sb_overhead *overhead, const sb_light *light, const sb_frame *frame,
                              const sb_density *density, bool reaches, sb_error *error);
 /* The context must be current. */

@@ -2,6 +2,7 @@
 #include "render/renderer.h"
 
 #include "base/memory.h"
+#include "render/bounds.h"
 #include "render/captions.h"
 #include "render/compose.h"
 #include "render/context.h"
@@ -33,6 +34,7 @@ struct sb_renderer {
     sb_compose compose;
     sb_values values;
     sb_overhead overhead;
+    sb_reached reached;    /* unless it shares another one */
     sb_face_loads loads;   /* empty unless the scene shows them */
     sb_slicer slicer;      /* empty unless a camera has a slice */
     unsigned char *pixels; /* RGBA, rows from the bottom up as read from OpenGL */
@@ -54,30 +56,6 @@ static sb_status make_framebuffer(sb_renderer *r, sb_error *error)
     sb_gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, r->color);
     sb_gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
     return sb_framebuffer_check("picture", error);
-}
-
-/* Widens the bounds by the water of a grid that frames contain beside that of the domain. */
-static void add_grid(sb_renderer *r, const sb_scene *scene)
-{
-    const sb_offshore_settings *o = &scene->offshore;
-    if (!sb_scene_nested(scene)) return;
-    const double x_min = fmax(o->x_min, r->min.x - o->drawn), x_max = fmin(o->x_max, r->max.x + o->drawn);
-    const double y_min = fmax(o->y_min, r->min.y - o->drawn), y_max = fmin(o->y_max, r->max.y + o->drawn);
-    const bool flat = scene->dimensions == 2;
-    r->min = sb_vec(fmin(r->min.x, x_min), flat ? r->min.y : fmin(r->min.y, y_min), r->min.z);
-    r->max = sb_vec(fmax(r->max.x, x_max), flat ? r->max.y : fmax(r->max.y, y_max), r->max.z);
-}
-
-static void find_bounds(sb_renderer *r, const sb_model *model)
-{
-    r->min = model->min;
-    r->max = model->max;
-    add_grid(r, r->scene);
-    for (size_t i = 0; i < model->body_count; i++)
-        for (size_t v = 0; v < model->bodies[i].mesh.vertex_count; v++) {
-            r->min = sb_min(r->min, model->bodies[i].mesh.vertices[v]);
-            r->max = sb_max(r->max, model->bodies[i].mesh.vertices[v]);
-        }
 }
 
 static double sea_level(const sb_scene *scene)
@@ -140,7 +118,7 @@ static sb_status make_passes(sb_renderer *r, const sb_model *model, sb_error *er
     const sb_effects effects = {.foam = r->scene->foam.enabled,
                                 .shadows = settings->shadows,
                                 .occlusion = settings->occlusion,
-                                .reached = settings->wet_ground || settings->greatest_depth};
+                                .reached = sb_reached_shown(r->scene)};
     if (status == SB_OK) status = sb_compose_create(&effects, &r->compose, error);
     return status;
 }
@@ -156,7 +134,8 @@ sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_re
     r->scene = scene;
     r->width = width;
     r->height = height;
-    find_bounds(r, model);
+    sb_bounds_find(scene, model, &r->min, &r->max);
+    r->overhead.reached = &r->reached;
     sb_status status = SB_OK;
     r->pixels = sb_alloc((size_t)width * (size_t)height, 4);
     if (!r->pixels) status = sb_fail_memory(error, "a picture");
@@ -174,6 +153,12 @@ sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_re
     else
         sb_renderer_destroy(r);
     return status;
+}
+
+void sb_renderer_share(sb_renderer *renderer, sb_reached *reached)
+{
+    renderer->overhead.reached = reached;
+    renderer->overhead.uploaded = 0;
 }
 
 /* The kinds of pixels, if the water is in memory; NULL: it is drawn by OpenGL. */
@@ -209,7 +194,6 @@ static void draw_picture(sb_renderer *r, const sb_frame *frame, const sb_scenery
                          const sb_camera *camera, const sb_view *view)
 {
     const sb_render_settings *settings = &r->scene->render;
-    const bool reaches = settings->wet_ground || settings->greatest_depth;
     /* A length for contact shadows and for colours of the ground that fits plants and flumes: 10 m at a plant. */
     const double unit = r->light.size / 175;
     if (settings->occlusion) sb_occlusion_draw(&r->occlusion, scenery, &r->water, view, 1.6 * unit);
@@ -220,9 +204,9 @@ static void draw_picture(sb_renderer *r, const sb_frame *frame, const sb_scenery
                             .kinds = kinds,
                             .kind_depth = r->kind_depth,
                             .foam = r->foam.drawn ? r->foam.texture : 0,
-                            .shade = &r->overhead.shade,
+                            .shade = r->overhead.shade_map,
                             .shade_bias = 1.5 * frame->spacing * sb_overhead_scale(&r->light),
-                            .reached = reaches ? &r->overhead.reached : NULL,
+                            .reached = r->overhead.reached_map,
                             .wet = settings->wet_ground,
                             .painted = settings->greatest_depth,
                             .loaded = settings->loads,
@@ -265,7 +249,7 @@ static sb_status draw_passes(sb_renderer *r, const sb_frame *frame, size_t numbe
         status = sb_water_draw(&r->water, frame, r->values.list, &r->light.solid, view, camera->style, error);
     if (status == SB_OK && r->scene->foam.enabled)
         status = sb_foam_texture_draw(&r->foam, frame, scenery, &r->water, view, error);
-    const bool reaches = r->scene->render.wet_ground || r->scene->render.greatest_depth;
+    const bool reaches = sb_reached_shown(r->scene);
     if (status == SB_OK) status = sb_overhead_update(&r->overhead, &r->light, frame, r->water.density, reaches, error);
     const float *kinds = NULL;
     if (status == SB_OK) status = find_kinds(r, frame, scenery, view, &kinds, error);
@@ -368,6 +352,7 @@ void sb_renderer_destroy(sb_renderer *renderer)
     sb_values_free(&r->values);
     sb_slicer_free(&r->slicer);
     sb_face_loads_free(&r->loads);
+    sb_reached_free(&r->reached);
     sb_free(r->kinds);
     sb_free(r->pixels);
     sb_free(r);

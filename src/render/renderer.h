@@ -5,6 +5,7 @@
 #include "frame/frame.h"
 #include "geometry/model/model.h"
 #include "render/image.h"
+#include "render/reached.h"
 
 typedef struct sb_renderer sb_renderer;
 
@@ -13,6 +14,11 @@ typedef struct sb_renderer sb_renderer;
    function. Starts OSMesa's drawing threads (LP_NUM_THREADS, two unless set), which inherit the caller's processor
    mask. */
 sb_status sb_renderer_create(const sb_scene *scene, const sb_model *model, sb_renderer **renderer, sb_error *error);
+
+/* From now on the renderer adds the water of its frames to this map, and shows it as the highest water so far
+   (wet_ground, greatest_depth), instead of one of its own. The map is of the same scene and model, and must outlive the
+   renderer; renderers that share one draw one at a time. */
+void sb_renderer_share(sb_renderer *renderer, sb_reached *reached);
 
 /* Draws a frame from scene->render.cameras[camera] at the frame's time, and resizes image as needed. May be called from
    any thread, one at a time. */

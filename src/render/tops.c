@@ -29,14 +29,12 @@ sb_status sb_tops_create(int side, sb_tops *tops, sb_error *error)
     made.top = sb_alloc((size_t)side * (size_t)side, sizeof *made.top);
     if (!made.top) return sb_fail_memory(error, "a map of the water");
     sb_tops_clear(&made);
-    made.texture = sb_texture_create(GL_R32F, side, side, GL_RED, GL_FLOAT, made.top, GL_NEAREST);
     *tops = made;
     return SB_OK;
 }
 
-void sb_tops_destroy(sb_tops *tops)
+void sb_tops_free(sb_tops *tops)
 {
-    sb_gl.DeleteTextures(1, &tops->texture);
     sb_free(tops->top);
     sb_free(tops->now);
     *tops = (sb_tops){0};
@@ -98,10 +96,4 @@ sb_status sb_tops_add_areas(sb_tops *tops, const sb_frame *frame, const sb_densi
             for (int c = 0; full && c < 4; c++) tops->top[block[c]] = fmaxf(tops->top[block[c]], tops->now[block[c]]);
         }
     return SB_OK;
-}
-
-void sb_tops_upload(const sb_tops *tops)
-{
-    sb_gl.BindTexture(GL_TEXTURE_2D, tops->texture);
-    sb_gl.TexImage2D(GL_TEXTURE_2D, 0, GL_R32F, tops->side, tops->side, 0, GL_RED, GL_FLOAT, tops->top);
 }

@@ -1,18 +1,16 @@
 /* The outermost water of each cell of a grid, as seen along an axis: for the water's shadows (seen from the sun) and
-   for the highest water so far (seen from above). */
+   for the highest water so far (seen from above). Without OpenGL, so that it can outlive a renderer. */
 #ifndef SB_RENDER_TOPS_H
 #define SB_RENDER_TOPS_H
 
 #include "frame/frame.h"
 #include "render/density.h"
-#include "render/program.h"
 
 /* A zeroed struct is empty. */
 typedef struct sb_tops {
     int side;   /* cells on each side */
     float *top; /* row by row; SB_TOPS_DRY where there has been no water */
     float *now; /* the same of one frame; NULL until sb_tops_add_areas needs it */
-    GLuint texture;
 } sb_tops;
 
 #define SB_TOPS_DRY (-1e30f)
@@ -23,9 +21,9 @@ typedef struct sb_tops {
    water would have a shadow with the steps of the map's cells. */
 extern const char sb_tops_source[];
 
-/* Makes an empty map. The context must be current. A zeroed sb_tops may be destroyed. */
+/* Makes an empty map. A zeroed sb_tops may be freed. */
 sb_status sb_tops_create(int side, sb_tops *tops, sb_error *error);
-void sb_tops_destroy(sb_tops *tops);
+void sb_tops_free(sb_tops *tops);
 
 /* Forgets all water. */
 void sb_tops_clear(sb_tops *tops);
@@ -39,8 +37,5 @@ void sb_tops_add(sb_tops *tops, const sb_frame *frame, const sb_density *density
    them leave nothing, along whatever track. */
 sb_status sb_tops_add_areas(sb_tops *tops, const sb_frame *frame, const sb_density *density, float least,
                             float map[3][4], sb_error *error);
-
-/* Copies the map to its texture. */
-void sb_tops_upload(const sb_tops *tops);
 
 #endif

@@ -1,13 +1,16 @@
 /* The times of pictures, stills, cameras that move by themselves, and plots in pictures; also of resumed runs. */
 #include "program.h"
 
+#include "base/clock.h"
 #include "base/file.h"
 #include "base/memory.h"
 
 #include <png.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* Water that falls to the right, and towards larger y, with a camera of each kind. */
 static const char scene[] =
@@ -157,6 +160,72 @@ static void a_resumed_run_has_the_same_pictures(void **state)
         }
 }
 
+/* A house stands in water that falls, so that only what is remembered shows how high the water has been. */
+static const char painted[] = "title: Painted\n"
+                              "resolution: 0.1\n"
+                              "duration: 0.42\n"
+                              "domain: {min: [0, 0, 0], max: [2.6, 0.8, 1]}\n"
+                              "water: {boxes: [{min: [0, 0, 0], max: [0.8, 0.8, 0.6]}]}\n"
+                              "bodies:\n"
+                              "  - {name: house, shape: box, min: [0.2, 0.3, 0], max: [0.5, 0.6, 0.8]}\n"
+                              "  - {name: post, shape: box, min: [1.0, 0.3, 0], max: [1.3, 0.6, 0.8]}\n"
+                              "numerics: {settle_steps: 0}\n"
+                              "measure: {interval: 0.02}\n"
+                              "output: {particle_interval: 0.07, plots: false, checkpoint: {steps: 3, minutes: 0}}\n"
+                              "render:\n"
+                              "  interval: 0.07\n"
+                              "  width: 320\n"
+                              "  height: 240\n"
+                              "  still_width: 160\n"
+                              "  still_height: 90\n"
+                              "  speed_max: 2\n"
+                              "  video: false\n"
+                              "  wet_ground: true\n"
+                              "  greatest_depth: true\n"
+                              "  stills: [0.1, 0.42]\n"
+                              "  cameras:\n"
+                              "    - {name: house, eye: [-0.6, -0.9, 1.4], target: [0.35, 0.45, 0.4]}\n"
+                              "    - {name: balls, eye: [0.4, -2, 1.2], target: [0.4, 0.4, 0.3], style: particles}\n";
+
+static void assert_same_pictures(const char *a, const char *b, const char *folder, int from, int to)
+{
+    static const char *const cameras[] = {"house", "balls"};
+    for (int c = 0; c < 2; c++)
+        for (int k = from; k <= to; k++) {
+            char one[128], other[128];
+            snprintf(one, sizeof one, "%s/%s/%s/%06d.png", a, folder, cameras[c], k);
+            snprintf(other, sizeof other, "%s/%s/%s/%06d.png", b, folder, cameras[c], k);
+            assert_same_file(one, other);
+        }
+}
+
+static void start_and_kill(const char *directory)
+{
+    char third[128];
+    snprintf(third, sizeof third, "%s/frames/balls/000003.png", directory);
+    const pid_t process =
+        program_start((const char *const[]){"run", "painted.yaml", "--out", directory, "--quiet", NULL});
+    for (double end = sb_clock() + 30; !exists(third) && sb_clock() < end;) usleep(1000);
+    assert_true(exists(third));
+    kill(process, SIGKILL);
+    outcome o = program_finish(process);
+    assert_int_equal(o.status, 128 + SIGKILL);
+    outcome_free(&o);
+    assert_false(exists("killed/frames/house/000007.png")); /* or nothing would be left to do */
+}
+
+/* What the water has reached is remembered over a kill, by the film and by stills. */
+static void what_water_reached_survives_a_kill(void **state)
+{
+    (void)state;
+    write_text("painted.yaml", painted);
+    RUN_AND_FORGET(0, "run", "painted.yaml", "--out", "whole", "--quiet");
+    start_and_kill("killed");
+    RUN_AND_FORGET(0, "run", "killed/scene.yaml", "--out", "killed", "--quiet", "--resume");
+    assert_same_pictures("whole", "killed", "frames", 1, 7);
+    assert_same_pictures("whole", "killed", "stills", 1, 2);
+}
+
 /* Fraction of pixels that differ by more than a few levels, in the part of the picture where plots are or elsewhere. */
 static double difference(const char *a, const char *b, bool plots)
 {
@@ -176,6 +245,34 @@ static double difference(const char *a, const char *b, bool plots)
     sb_free(left);
     sb_free(right);
     return (double)unlike / (double)count;
+}
+
+/* Pictures with all that a run stores for them are those of the run; only a body that moves is where the step left it.
+ */
+static void render_draws_the_same_effects(void **state)
+{
+    (void)state;
+    static const char *const set[] = {"--set",
+                                      "render.loads=true",
+                                      "--set",
+                                      "foam.enabled=true",
+                                      "--set",
+                                      "output.checkpoint.steps=0",
+                                      "--set",
+                                      "render.cameras=[{name: house, eye: [-0.6, -0.9, 1.4], target: [0.35, 0.45, "
+                                      "0.4], color: density_error}, {name: balls, eye: [0.4, -2, 1.2], target: [0.4, "
+                                      "0.4, 0.3], slice: {point: [0.4, 0.5, 0.3], normal: [0, 1, 0], vectors: 0.2}}]"};
+    write_text("painted.yaml", painted);
+    RUN_AND_FORGET(0, "run", "painted.yaml", "--out", "effects", "--quiet", set[0], set[1], set[2], set[3], set[4],
+                   set[5], set[6], set[7]);
+    outcome o = RUN(0, "render", "effects", "--out", "effects-again", "--quiet", "--set", "render.stills=[]");
+    assert_string_equal(o.err, "");
+    outcome_free(&o);
+    assert_true(exists("effects/foam/000007.vtp"));
+    assert_same_pictures("effects", "effects-again", "frames", 1, 7);
+    /* The still at 0.1 s, which is left out, adds nothing: the water falls. */
+    RUN_AND_FORGET(0, "render", "whole", "--out", "whole-again", "--quiet", "--set", "render.stills=[]");
+    assert_same_pictures("whole", "whole-again", "frames", 1, 7);
 }
 
 /* `render` carries the water of the particle files to the same times, and has the plots from the tables. */
@@ -279,7 +376,9 @@ int main(void)
         cmocka_unit_test(a_step_can_have_several_pictures),
         cmocka_unit_test(stills_have_their_own_size),
         cmocka_unit_test(a_resumed_run_has_the_same_pictures),
+        cmocka_unit_test(what_water_reached_survives_a_kill),
         cmocka_unit_test(render_draws_the_same_pictures),
+        cmocka_unit_test(render_draws_the_same_effects),
         cmocka_unit_test(render_draws_stills),
         cmocka_unit_test(water_of_the_grid_joins_that_of_particles),
     };

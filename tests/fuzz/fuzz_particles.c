@@ -28,6 +28,9 @@ static void make_valid(void)
     for (size_t i = 0; i < 9; i++) frame->position[i] = (float)i;
     snprintf(frame->bodies[0].name, sizeof frame->bodies[0].name, "reactor");
     frame->bodies[1].force = sb_vec(1e6, 0, 0);
+    FUZZ_CHECK(sb_frame_add_faces(frame, 2));
+    frame->face_pressure[0] = 1000;
+    frame->face_pressure[1] = 2000;
     snprintf(path, sizeof path, "%s", fuzz_save("valid.vtp", NULL, 0));
     FUZZ_CHECK(sb_vtp_write(path, frame, frame->index, NULL) == SB_OK);
     FUZZ_CHECK(sb_file_read(path, 1 << 20, &valid, &length, NULL) == SB_OK);
@@ -68,6 +71,7 @@ static void check_finite(const sb_frame *frame)
     for (size_t i = 0; i < 3 * frame->count; i++)
         FUZZ_CHECK(isfinite(frame->position[i]) && isfinite(frame->velocity[i]));
     for (size_t i = 0; i < frame->count; i++) FUZZ_CHECK(isfinite(frame->pressure[i]));
+    for (size_t f = 0; f < frame->face_count; f++) FUZZ_CHECK(isfinite(frame->face_pressure[f]));
     for (size_t b = 0; b < frame->body_count; b++)
         FUZZ_CHECK(sb_isfinite(frame->bodies[b].force) && sb_isfinite(frame->bodies[b].moment) &&
                    memchr(frame->bodies[b].name, 0, sizeof frame->bodies[b].name));
@@ -86,6 +90,9 @@ static void check_again(const sb_frame *frame)
     FUZZ_CHECK(memcmp(again->velocity, frame->velocity, 12 * frame->count) == 0);
     FUZZ_CHECK(memcmp(again->pressure, frame->pressure, 4 * frame->count) == 0);
     FUZZ_CHECK(memcmp(again->id, frame->id, 4 * frame->count) == 0);
+    FUZZ_CHECK(again->face_count == frame->face_count);
+    FUZZ_CHECK(frame->face_count == 0 ||
+               memcmp(again->face_pressure, frame->face_pressure, 4 * frame->face_count) == 0);
     sb_frame_release(again);
 }
 
@@ -169,9 +176,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     free(file);
     if (status != SB_OK) {
         FUZZ_CHECK(!frame);
+        FUZZ_CHECK(!edits || size > 1);
         fuzz_check_refusal(status, &error);
         return 0;
     }
+    FUZZ_CHECK(!edits || size > 1 || (frame->face_count == 2 && frame->face_pressure[1] >= 2000));
     check_finite(frame);
     check_again(frame);
     sb_frame_release(frame);

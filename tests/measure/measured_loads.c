@@ -60,14 +60,19 @@ static void step(basin *b, sb_measure *measure)
         fail_msg("%s", error.text);
 }
 
-static sums run(const char *numerics, double tolerance, const char *loads, int threads, double until)
+static const char PERIODIC[] = "{min: [0, 0, 0], max: [2.6, 0.8, 1.2], sides: {y_min: periodic, y_max: periodic}}";
+
+/* domain: NULL: that of `breaking`. */
+static sums run_in(const char *domain, const char *numerics, double tolerance, const char *loads, int threads,
+                   double until)
 {
-    enum { KEYS = sizeof breaking / sizeof *breaking };
+    enum { KEYS = sizeof breaking / sizeof *breaking, DOMAIN = 1 };
     sb_override set[KEYS + 2];
     basin b;
     sb_measure *measure;
     sums s = {0};
     memcpy(set, breaking, sizeof breaking);
+    if (domain) set[DOMAIN] = (sb_override){"domain", domain};
     set[KEYS] = (sb_override){"numerics", numerics};
     set[KEYS + 1] = (sb_override){"render.loads", loads};
     omp_set_num_threads(threads);
@@ -81,6 +86,11 @@ static sums run(const char *numerics, double tolerance, const char *loads, int t
     sb_measure_destroy(measure);
     basin_free(&b);
     return s;
+}
+
+static sums run(const char *numerics, double tolerance, const char *loads, int threads, double until)
+{
+    return run_in(NULL, numerics, tolerance, loads, threads, until);
 }
 
 /* The force on a body by boundary particles comes from sums in single precision. */
@@ -98,6 +108,20 @@ static void loads_of_faces_sum_to_the_force(void **state)
     assert_true(particles.rows >= 60 && particles.faces >= 8 && particles.greatest > 300);
 }
 
+/* Water that has passed a periodic side presses on the faces, too. */
+static void loads_sum_to_the_force_beside_periodic_sides(void **state)
+{
+    (void)state;
+    static const char *const numerics[] = {
+        "{walls: images}", "{walls: particles, density: summed, stress_correction: 0}", "{preset: wen}"};
+    for (int n = 0; n < 3; n++) {
+        const sums s = run_in(PERIODIC, numerics[n], n == 0 ? 1e-9 : 1e-5, "true", 2, n == 2 ? 0.3 : 0.38);
+        print_message("%s: %zu rows, %zu faces with a load, at most %.0f N\n", numerics[n], s.rows, s.faces,
+                      s.greatest);
+        assert_true(s.rows >= 40 && s.faces >= 3 && s.greatest > 100);
+    }
+}
+
 static void loads_do_not_depend_on_threads_and_change_nothing(void **state)
 {
     (void)state;
@@ -107,15 +131,23 @@ static void loads_do_not_depend_on_threads_and_change_nothing(void **state)
     assert_true(run("{walls: images}", 1e-9, "false", 1, 0.35).probes == one.probes);
 }
 
-/* Beside water at rest each wall of a house carries rho g h^2 / 2 per metre over the part that is wet, and the roof
-   above it nothing. A face that took the forces of its neighbour would have twice as much, or none. */
-static void walls_in_still_water_have_the_hydrostatic_load(void **state)
+/* What a wall of the house carries in water at rest. */
+static double hydrostatic(const basin *b, sb_vec3 normal)
 {
-    (void)state;
+    const double depth = sb_sim_energy(b->sim).mass / 1000 / (2.4 * 2.2 - 1.0 * 0.6);
+    const double width = fabs(normal.x) > 0.5 ? 0.6 : fabs(normal.y) > 0.5 ? 1.0 : 0;
+    return 0.5 * 9810 * depth * depth * width;
+}
+
+/* A house in water at rest: the loads of its walls at 0.5 s are hydrostatic, within 3 % of that on one metre. */
+static void check_house_in_still_water(const char *sides, const char *house)
+{
+    char domain[200];
+    snprintf(domain, sizeof domain, "{min: [0, 0, 0], max: [2.4, 2.2, 1.6], sides: %s}", sides);
     const sb_override set[] = {{"resolution", "0.1"},
-                               {"domain", "{min: [0, 0, 0], max: [2.4, 2.2, 1.6]}"},
+                               {"domain", domain},
                                {"water", "{boxes: [{min: [0, 0, 0], max: [2.4, 2.2, 1]}]}"},
-                               {"bodies", "[{name: house, shape: box, min: [0.8, 0.8, 0], max: [1.8, 1.4, 1.4]}]"},
+                               {"bodies", house},
                                {"measure.interval", "0.5"},
                                {"render.loads", "true"}};
     basin b;
@@ -133,18 +165,35 @@ static void walls_in_still_water_have_the_hydrostatic_load(void **state)
     sb_frame *frame = sb_sim_snapshot(b.sim);
     assert_int_equal(sb_measure_fill_frame(measure, frame, NULL), SB_OK);
     assert_int_equal(frame->face_count, 6);
-    const double depth = sb_sim_energy(b.sim).mass / 1000 / (2.4 * 2.2 - 1.0 * 0.6);
+    const double metre = hydrostatic(&b, sb_vec(0, 1, 0));
     for (size_t f = 0; f < count; f++) {
         const sb_vec3 n = faces[f].normal;
-        const double width = fabs(n.x) > 0.5 ? 0.6 : fabs(n.y) > 0.5 ? 1.0 : 0;
-        const double expected = 0.5 * 9810 * depth * depth * width, load = -sb_dot(faces[f].force, n);
+        const double expected = hydrostatic(&b, n), load = -sb_dot(faces[f].force, n);
         print_message("normal %2.0f %2.0f %2.0f: %.0f N, expected %.0f N\n", n.x, n.y, n.z, load, expected);
-        assert_true(fabs(load - expected) < 0.03 * 0.5 * 9810 * depth * depth);
+        assert_true(fabs(load - expected) < 0.03 * metre);
         assert_true(fabs((double)frame->face_pressure[f] * faces[f].area - load) < 1e-5 * (1 + fabs(load)));
     }
     sb_frame_release(frame);
     sb_measure_destroy(measure);
     basin_free(&b);
+}
+
+/* Beside water at rest each wall of a house carries rho g h^2 / 2 per metre over the part that is wet, and the roof
+   above it nothing. A face that took the forces of its neighbour would have twice as much, or none. */
+static void walls_in_still_water_have_the_hydrostatic_load(void **state)
+{
+    (void)state;
+    check_house_in_still_water("{x_min: wall}",
+                               "[{name: house, shape: box, min: [0.8, 0.8, 0], max: [1.8, 1.4, 1.4]}]");
+}
+
+/* Two walls of the house are in a periodic side: the water before one of them is at the other end of the domain. */
+static void walls_in_a_periodic_side_have_the_hydrostatic_load(void **state)
+{
+    (void)state;
+    static const char sides[] = "{y_min: periodic, y_max: periodic}";
+    static const char low[] = "[{name: house, shape: box, min: [0.8, 0, 0], max: [1.8, 0.6, 1.4]}]";
+    check_house_in_still_water(sides, low);
 }
 
 static uint64_t finish(basin *b, sb_measure *measure, int steps)
@@ -197,7 +246,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(loads_of_faces_sum_to_the_force),
         cmocka_unit_test(loads_do_not_depend_on_threads_and_change_nothing),
+        cmocka_unit_test(loads_sum_to_the_force_beside_periodic_sides),
         cmocka_unit_test(walls_in_still_water_have_the_hydrostatic_load),
+        cmocka_unit_test(walls_in_a_periodic_side_have_the_hydrostatic_load),
         cmocka_unit_test(loads_continue_after_resume),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

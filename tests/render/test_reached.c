@@ -266,11 +266,102 @@ static void tracks_of_particles_leave_no_streaks(void **state)
     clear_stage(&stage);
 }
 
+/* Draws a frame by a new renderer that shares what earlier ones have seen, and releases the frame. */
+static sb_image draw_sharing(const struct stage *stage, sb_reached *reached, sb_frame *frame)
+{
+    sb_error error = {0};
+    sb_renderer *renderer = NULL;
+    sb_image image = {0};
+    sb_status status = sb_renderer_create(&stage->scene, &stage->model, &renderer, &error);
+    if (status == SB_OK) sb_renderer_share(renderer, reached);
+    if (status == SB_OK) status = sb_renderer_draw(renderer, frame, 0, &image, &error);
+    if (status != SB_OK) fail_msg("%s", error.text);
+    sb_renderer_destroy(renderer);
+    sb_frame_release(frame);
+    return image;
+}
+
+static sb_status save_and_load(const struct stage *stage, const sb_reached *from, sb_reached *to, sb_error *error)
+{
+    sb_archive_out out = {0};
+    sb_archive_in in = {0};
+    sb_archive_begin(&out, "TEST", 1);
+    sb_archive_section(&out, "reached");
+    sb_reached_save(from, &out);
+    assert_int_equal(sb_archive_close(&out, NULL), SB_OK);
+    assert_int_equal(sb_archive_parse(&in, "saved", out.bytes, out.used, "TEST", 1, NULL), SB_OK);
+    assert_int_equal(sb_archive_enter(&in, "reached", NULL), SB_OK);
+    sb_status status = sb_reached_load(to, &stage->scene, &stage->model, &in, error);
+    if (status == SB_OK) status = sb_archive_leave(&in, error);
+    sb_archive_in_free(&in);
+    sb_archive_out_free(&out);
+    return status;
+}
+
+/* Renderers of other sizes and an archive hand the highest water on; a picture of the same time does, too. */
+static void the_highest_water_is_handed_on(void **state)
+{
+    (void)state;
+    struct stage stage;
+    sb_reached reached = {0}, loaded = {0};
+    set_stage(&stage, sb_vec(-20, 0, 3));
+    stage.scene.render.greatest_depth = stage.scene.render.wet_ground = true;
+    stage.scene.resolution = 0.5;
+    assert_int_equal(save_and_load(&stage, &reached, &loaded, NULL), SB_OK);
+    assert_true(loaded.changes == 0 && !loaded.tops.top);
+    sb_image expected = after(&stage, water(1, sb_vec(-8, -5, 0), 20, 20, 8));
+    stage.scene.render.width = WIDTH / 2;
+    stage.scene.render.height = HEIGHT / 2;
+    sb_image small = draw_sharing(&stage, &reached, water(1, sb_vec(-8, -5, 0), 20, 20, 8));
+    assert_int_equal(save_and_load(&stage, &reached, &loaded, NULL), SB_OK);
+    stage.scene.render.width = WIDTH;
+    stage.scene.render.height = HEIGHT;
+    sb_image same_time = draw_sharing(&stage, &reached, water(1, sb_vec(0, 0, 0), 0, 0, 0));
+    sb_image later = draw_sharing(&stage, &loaded, water(100, sb_vec(0, 0, 0), 0, 0, 0));
+    assert_int_equal(count_changes(&same_time, &expected), 0);
+    assert_memory_equal(later.rgb, expected.rgb, 3 * WIDTH * HEIGHT);
+    sb_image_free(&expected);
+    sb_image_free(&small);
+    sb_image_free(&same_time);
+    sb_image_free(&later);
+    sb_reached_free(&reached);
+    sb_reached_free(&loaded);
+    clear_stage(&stage);
+}
+
+/* Another size, or a height that is no number, is refused. */
+static void a_wrong_highest_water_is_refused(void **state)
+{
+    (void)state;
+    struct stage stage;
+    sb_error error = {0};
+    sb_reached reached = {0}, loaded = {0};
+    set_stage(&stage, sb_vec(-20, 0, 3));
+    stage.scene.render.wet_ground = true;
+    stage.scene.resolution = 0.5;
+    sb_image image = draw_sharing(&stage, &reached, water(1, sb_vec(-8, -5, 0), 20, 20, 8));
+    stage.scene.resolution = 0.6;
+    assert_int_equal(save_and_load(&stage, &reached, &loaded, &error), SB_BAD_INPUT);
+    stage.scene.resolution = 0.5;
+    reached.tops.top[3] = NAN;
+    assert_int_equal(save_and_load(&stage, &reached, &loaded, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "cell 3 of the highest water has nan m"));
+    reached.tops.top[3] = 0;
+    reached.time = HUGE_VAL;
+    assert_int_equal(save_and_load(&stage, &reached, &loaded, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "expected a finite time"));
+    sb_image_free(&image);
+    sb_reached_free(&reached);
+    sb_reached_free(&loaded);
+    clear_stage(&stage);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(walls_show_the_greatest_depth),    cmocka_unit_test(loads_are_not_painted_over),
         cmocka_unit_test(bodies_that_move_are_not_painted), cmocka_unit_test(tracks_of_particles_leave_no_streaks),
-        cmocka_unit_test(oblique_tracks_leave_no_streaks),  cmocka_unit_test(water_of_two_dimensions_wets)};
+        cmocka_unit_test(oblique_tracks_leave_no_streaks),  cmocka_unit_test(water_of_two_dimensions_wets),
+        cmocka_unit_test(the_highest_water_is_handed_on),   cmocka_unit_test(a_wrong_highest_water_is_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
