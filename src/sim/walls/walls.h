@@ -20,9 +20,14 @@ int sb_wall_images(sb_wall_set *set, const sb_space *space);
 sb_status sb_walls_restore(sb_sim *sim, sb_error *error);
 /* Builds the hash set of blocks from the set's cells. Returns 0, or -1 without memory. */
 int sb_walls_near_build(sb_wall_set *set, const sb_space *space);
+/* Sorts a set along the Z-curve, stably, and builds its cells. Returns 0, or -1 without memory. */
+int sb_walls_table(sb_wall_set *set, const sb_space *space);
 /* sim/walls/divide.c: keeps this rank's share of the static set, which sb_walls_divide makes smaller. Not with foam,
-   which may be anywhere, and dynamic boundary particles, which have numbers. Returns 0, or -1 without memory. */
+   which may be anywhere, and dynamic boundary particles, which have numbers. Of a model with a part of the boundary
+   particles the share is those that are not marked; the marks are taken away. Returns 0, or -1 without memory. */
 int sb_walls_share(sb_sim *sim);
+/* Marks the body of a static boundary particle that is of another rank's share, from which volumes follow. */
+#define SB_WALL_MARK ((uint32_t)1 << 31)
 void sb_walls_share_free(sb_wall_share *share);
 /* Gives each rank the static boundary particles that its domain's particles may meet, if the domains have changed. All
    ranks call it. SB_FAILED without memory in any. */
