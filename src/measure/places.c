@@ -27,8 +27,8 @@ sb_status sb_measure_places(const sb_scene *scene, sb_model_place **places, size
     for (size_t i = 0; i < settings->plane_count; i++) {
         const sb_flow_plane *plane = &settings->planes[i];
         if (!plane->record) continue;
-        made[(*count)++] = place(sb_vec(plane->ax, flat ? 0 : plane->ay, 0), sb_vec(plane->bx, flat ? 0 : plane->by, 0),
-                                 radius, true);
+        made[(*count)++] =
+            place(sb_vec(plane->ax, flat ? 0 : plane->ay, 0), sb_vec(plane->bx, flat ? 0 : plane->by, 0), radius, true);
     }
     for (size_t i = 0; i < settings->probe_count; i++)
         made[(*count)++] =

@@ -1,5 +1,5 @@
-/* Boundary particles that all ranks have, whichever has sampled them: those near places where measurements read them, and
-   near moving bodies, with which static walls are compared. */
+/* Boundary particles that all ranks have, whichever has sampled them: those near places where measurements read them,
+   and near moving bodies, with which static walls are compared. */
 #include "base/memory.h"
 #include "geometry/model/walls.h"
 
@@ -22,11 +22,21 @@ static bool is_static(const sb_model_body *body)
     return body->wavemaker < 0;
 }
 
+/* The difference of two coordinates, or of one and the nearest image of the other. */
+static double nearest_image(const sb_walls_part *p, int axis, double difference)
+{
+    const sb_vec3 size = sb_sub(p->model->max, p->model->min);
+    return sb_scene_repeats(p->scene, axis) ? remainder(difference, sb_component(size, axis)) : difference;
+}
+
 /* Distance in plan, or in space, of a point from the line between two others. */
-static double distance_to(const sb_model_place *place, sb_vec3 at)
+static double distance_to(const sb_walls_part *p, const sb_model_place *place, sb_vec3 at)
 {
     sb_vec3 way = sb_sub(place->to, place->at), from = sb_sub(at, place->at);
-    if (place->column) way.z = from.z = 0;
+    if (place->column)
+        way.z = from.z = 0;
+    else
+        from = sb_vec(nearest_image(p, 0, from.x), nearest_image(p, 1, from.y), from.z);
     const double length2 = sb_dot(way, way);
     const double along = length2 > 0 ? fmin(fmax(sb_dot(from, way) / length2, 0), 1) : 0;
     return sb_norm(sb_madd(from, -along, way));
@@ -35,7 +45,7 @@ static double distance_to(const sb_model_place *place, sb_vec3 at)
 static bool is_wanted(const sb_walls_part *p, const boxes *around, sb_vec3 at)
 {
     for (size_t k = 0; k < p->team->place_count; ++k)
-        if (distance_to(&p->team->places[k], at) <= p->team->places[k].range) return true;
+        if (distance_to(p, &p->team->places[k], at) <= p->team->places[k].range) return true;
     for (size_t k = 0; k < around->count; ++k)
         if (sb_box_contains(around->corner[2 * k], around->corner[2 * k + 1], at)) return true;
     return false;

@@ -137,7 +137,7 @@ typedef double sb_model_need(const sb_scene *scene, const sb_model *model);
 sb_status sb_model_build_for(const sb_scene *scene, sb_model_need *need, sb_model *model, sb_error *error);
 
 /* A place near which all ranks have the boundary particles: within `range` (m) of the line between two points; column:
-   at all heights. */
+   at all heights; else of a point, or of its images beyond periodic sides. */
 typedef struct sb_model_place {
     sb_vec3 at, to; /* m */
     double range;
@@ -153,9 +153,9 @@ typedef struct sb_model_team {
 } sb_model_team;
 
 /* The same for one of several ranks, all of which call it. It has a part of the fluid particles if the water can be
-   placed in parts (it is one sea or one box): model->part; and a part of the boundary particles if no side is periodic
-   and there are neither foam nor dynamic boundary particles: model->walls. All ranks have the same model otherwise,
-   warnings and hash included. */
+   placed in parts (it is one sea or one box): model->part; and a part of the boundary particles if the longest axis
+   is not periodic and there are neither foam nor dynamic boundary particles: model->walls. All ranks have the same
+   model otherwise, warnings and hash included. */
 sb_status sb_model_build_part(const sb_scene *scene, sb_model_need *need, const sb_model_team *team, sb_model *model,
                               sb_error *error);
 /* Whether sb_model_build_part divides the fluid particles of a scene, and the boundary particles. */

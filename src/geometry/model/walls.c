@@ -1,10 +1,10 @@
 /* Boundary particles of one of several ranks. A rank samples its slabs and those beside them; of all others it has what
    lies near places and moving bodies, which the ranks give each other. What it then knows of all boundary particles is
    that of one rank, bit for bit. */
+#include "geometry/model/walls.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/stop.h"
-#include "geometry/model/walls.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -12,8 +12,7 @@
 bool sb_model_divides_walls(const sb_scene *scene)
 {
     const sb_numerics *n = &scene->numerics;
-    for (int axis = 0; axis < 3; ++axis)
-        if (sb_scene_repeats(scene, axis)) return false;
+    if (sb_scene_repeats(scene, sb_sample_axis(scene->domain.min, scene->domain.max, scene->dimensions))) return false;
     /* What depends on a particle is nearer than a slab: a surface behind it, and what that has before it. */
     const double reach = 2 * (n->support + 1) + 4 * n->wall_offset;
     return !scene->foam.enabled && n->walls != SB_WALLS_DYNAMIC && reach <= SB_SAMPLE_SLAB * n->wall_spacing;
@@ -63,8 +62,8 @@ static sb_status sample(sb_walls_part *p, const sb_model_surfaces *surfaces, sb_
     sb_samples samples = {.count = 0};
     p->first = from < to && from > 0 ? from - 1 : from;
     p->last = from < to && to < end ? to + 1 : to;
-    sb_status status = sb_sample_slabs(&surfaces->settings, surfaces->sources, surfaces->count, p->first, p->last,
-                                       &samples, error);
+    sb_status status =
+        sb_sample_slabs(&surfaces->settings, surfaces->sources, surfaces->count, p->first, p->last, &samples, error);
     if (status == SB_OK) status = sb_model_take_samples(p->scene, p->space, &samples, model, error);
     p->slab = samples.slab;
     if (status != SB_OK) return status;
@@ -123,8 +122,7 @@ static void know_extent(const sb_walls_part *p, sb_model_body *body)
         high = sb_max(high, model->wall_position[i]);
     }
     const double own[6] = {-low.x, -low.y, -low.z, high.x, high.y, high.z};
-    for (int k = 0; k < 6; ++k)
-        highest[k] = is_static(body) ? sb_ranks_largest(p->team->ranks, own[k]) : own[k];
+    for (int k = 0; k < 6; ++k) highest[k] = is_static(body) ? sb_ranks_largest(p->team->ranks, own[k]) : own[k];
     body->low = sb_vec(-highest[0], -highest[1], -highest[2]);
     body->high = sb_vec(highest[3], highest[4], highest[5]);
 }

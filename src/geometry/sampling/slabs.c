@@ -33,11 +33,18 @@ static sb_slabs across(const sb_sample_settings *settings, int axis, double widt
                                                        : UINT32_MAX / 4};
 }
 
+int sb_sample_axis(sb_vec3 min, sb_vec3 max, int dimensions)
+{
+    const sb_vec3 size = sb_sub(max, min);
+    const bool flat = dimensions == 2;
+    return size.x >= size.z && (flat || size.x >= size.y) ? 0 : flat || size.z > size.y ? 2 : 1;
+}
+
 void sb_slabs_choose(const sb_sample_settings *settings, sb_slabs *slabs, sb_slabs *rows)
 {
     const sb_vec3 size = sb_sub(settings->max, settings->min);
     const bool flat = settings->dimensions == 2;
-    const int axis = size.x >= size.z && (flat || size.x >= size.y) ? 0 : flat || size.z > size.y ? 2 : 1;
+    const int axis = sb_sample_axis(settings->min, settings->max, settings->dimensions);
     const int next = (axis + 1) % 3, last = (axis + 2) % 3;
     const bool first_wider = sb_sample_along(size, next) >= sb_sample_along(size, last);
     const int beside = flat ? 2 - axis : first_wider ? next : last;

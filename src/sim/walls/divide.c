@@ -4,7 +4,8 @@
 
    If the model has them all, the shares are parts of their order by keys, and what a rank receives, one rank after
    another, is in this order. If the model has those of some slabs, that is the share. What a rank then receives of a
-   body is in the order of one rank, in which a cell has one body after another. */
+   body is in the order of one rank, in which a cell has one body after another, and then the images beyond periodic
+   sides, in the order of their originals. */
 #include "base/memory.h"
 #include "sim/exchange/domains.h"
 #include "sim/search/sort.h"
@@ -57,13 +58,12 @@ static void take_own(sb_wall_set *set, sb_wall_share *share)
 {
     size_t at = 0;
     for (size_t i = 0; i < set->count; i++) {
-        if (set->body[i] & SB_WALL_MARK) {
-            set->body[i] &= ~SB_WALL_MARK;
-            continue;
+        if (!(set->body[i] & SB_WALL_MARK)) {
+            share->record[at] = set->record[i];
+            share->body[at] = set->body[i];
+            share->normal[at++] = set->normal[i];
         }
-        share->record[at] = set->record[i];
-        share->body[at] = set->body[i];
-        share->normal[at++] = set->normal[i];
+        set->body[i] &= ~(SB_WALL_MARK | SB_WALL_IMAGE);
     }
 }
 
@@ -144,15 +144,32 @@ static void travel(sb_sim *sim, delivery *v)
     sb_ranks_finish(d->ranks);
 }
 
-/* Puts those that have arrived one body after another. Returns 0, or -1 without memory. */
-static int sort_bodies(const sb_sim *sim, delivery *v)
+typedef uint64_t sort_key(const sb_sim *sim, const passenger *one);
+
+static uint64_t body_of(const sb_sim *sim, const passenger *one)
+{
+    (void)sim;
+    return one->body & ~SB_WALL_IMAGE;
+}
+
+static uint64_t original_of(const sb_sim *sim, const passenger *one)
+{
+    return one->body & SB_WALL_IMAGE ? sb_space_key(&sim->space, sb_space_wrap(&sim->space, one->record)) : 0;
+}
+
+static uint64_t is_image(const sb_sim *sim, const passenger *one)
+{
+    (void)sim;
+    return one->body & SB_WALL_IMAGE ? 1 : 0;
+}
+
+/* Sorts those that have arrived by a key of so many bits, stably. Returns 0, or -1 without memory. */
+static int sort_arrived(const sb_sim *sim, sort_key *key, int bits, delivery *v)
 {
     const size_t n = v->arrived;
-    int bits = 1;
-    while (sim->model->body_count >> bits) bits++;
     uint64_t *words = sb_alloc_untouched(n, sizeof *words), *other = sb_alloc_untouched(n, sizeof *words);
     passenger *sorted = sb_alloc_untouched(n, sizeof *sorted);
-    for (size_t i = 0; words && i < n; i++) words[i] = sb_sort_word(v->in[i].body, i);
+    for (size_t i = 0; words && i < n; i++) words[i] = sb_sort_word(key(sim, &v->in[i]), i);
     const uint64_t *order =
         words && other && sorted ? sb_sort(words, other, n, SB_INDEX_BITS, SB_INDEX_BITS + bits) : NULL;
     for (size_t i = 0; order && i < n; i++) sorted[i] = v->in[sb_word_index(order[i])];
@@ -168,16 +185,28 @@ static int sort_bodies(const sb_sim *sim, delivery *v)
     return status;
 }
 
+/* Puts those of a cell into the order of one rank, after which they are sorted by cells. Returns 0, or -1 without
+   memory. */
+static int sort_cells(const sb_sim *sim, delivery *v)
+{
+    int bits = 1;
+    while (sim->model->body_count >> bits) bits++;
+    if (sort_arrived(sim, body_of, bits, v) != 0) return -1;
+    if (!sim->space.repeats) return 0;
+    return sort_arrived(sim, original_of, sim->space.key_bits, v) != 0 || sort_arrived(sim, is_image, 1, v) != 0 ? -1
+                                                                                                                 : 0;
+}
+
 /* Makes the static set of those that have arrived. Returns 0, or -1 without memory. */
 static int settle_in(sb_sim *sim, delivery *v)
 {
     sb_wall_set *set = &v->set, *old = &sim->walls.set[SB_STATIC];
     const bool by_slabs = sim->model->walls.divided;
-    if (by_slabs && sort_bodies(sim, v) != 0) return -1;
+    if (by_slabs && sort_cells(sim, v) != 0) return -1;
     set->count = v->arrived;
     for (size_t i = 0; i < set->count; i++) {
         set->record[i] = v->in[i].record;
-        set->body[i] = v->in[i].body;
+        set->body[i] = v->in[i].body & ~SB_WALL_IMAGE;
         set->normal[i] = v->in[i].normal;
     }
     if (by_slabs ? sb_walls_table(set, &sim->space) != 0

@@ -185,7 +185,9 @@ sb_status sb_walls_create(sb_sim *sim, sb_error *error)
         if (copy_set(sim, s == SB_MOVING, set) != 0 || sb_walls_table(set, &sim->space) != 0 ||
             sb_wall_volumes(sim, set, s == SB_MOVING) != 0)
             return sb_fail_memory(error, "boundary particles");
-        if (sim->space.repeats && (sb_wall_images(set, &sim->space) != 0 || sb_walls_table(set, &sim->space) != 0))
+        const uint32_t mark = s == SB_STATIC && sim->model->walls.divided ? SB_WALL_IMAGE : 0;
+        if (sim->space.repeats &&
+            (sb_wall_images(set, &sim->space, mark) != 0 || sb_walls_table(set, &sim->space) != 0))
             return sb_fail_memory(error, "images of boundary particles");
         if (sb_walls_near_build(set, &sim->space) != 0) return sb_fail_memory(error, "boundary particles");
     }

@@ -58,6 +58,7 @@ const ranks_case ranks_cases[] = {
     {.name = "periodic channel",
      .file = TANK,
      .steps = 8,
+     .divided = true,
      .set = {"domain={min: [0, 0, 0], max: [3, 0.5, 1], sides: {y_min: periodic, y_max: periodic}}",
              "water={boxes: [{min: [0, 0, 0], max: [1, 0.5, 0.6]}]}", "resolution=0.08"},
      .has = RANKS_PUSHES},
@@ -83,6 +84,19 @@ const ranks_case ranks_cases[] = {
              "bodies=[{name: paddle, shape: box, min: [-0.5, 0, 0], max: [0, 1.2, 1.2]}]",
              "wavemakers=[{name: taker, body: paddle, kind: absorber, depth: 0.6, period: 1.5, plates: {width: 0.45}}]",
              "sponges=[{name: beach, side: x_max, length: 1, period: 1, depth: 0.6}]", "numerics.settle_steps=4"}},
+    {.name = "periodic channel with boundary particles",
+     .file = TANK,
+     .steps = 6,
+     .divided = true,
+     .set = {"domain={min: [0, 0, 0], max: [5.5, 0.65, 1], sides: {y_min: periodic, y_max: periodic}}",
+             "water={level: 0.5, seed: [0.2, 0.1, 0.2]}", "resolution=0.1",
+             "bodies=[{name: bar, shape: box, min: [0.9, -1, -0.1], max: [2.1, 2, 0.3]}, {name: kerb, shape: box, min: "
+             "[2.6, -1, -0.1], max: [4.6, 0.1, 0.3]}, {name: other, shape: box, min: [2.6, 0.5, -0.1], max: [4.6, 2, "
+             "0.3]}, {name: post, shape: box, min: [2.7, -1, 0], max: [3.5, 0.06, 1.2]}, {name: more, shape: box, min: "
+             "[2.7, 0.6, 0], max: [3.5, 2, 1.2]}]",
+             "numerics.walls=particles", "numerics.wall_spacing=0.9", "numerics.density=summed",
+             "numerics.stress_correction=0", "numerics.settle_steps=4"},
+     .has = RANKS_PUSHES},
     {.name = "water leaves",
      .file = TANK,
      .steps = 25,
