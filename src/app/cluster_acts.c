@@ -24,6 +24,21 @@ static sb_status compare_models(const run *r, sb_error *error)
     return SB_OK;
 }
 
+/* The model of this rank, and the boundary particles near the places where all ranks measure. */
+static sb_status build_part(run *r, bool estimates, sb_error *error)
+{
+    sb_model_place *places = NULL;
+    sb_model_team team = {.ranks = r->cluster.ranks, .agree = sb_world_agree};
+    sb_status status = sb_fit_check(r->scene, error);
+    if (status == SB_OK) status = sb_measure_places(r->scene, &places, &team.place_count, error);
+    if (sb_cluster_several(r)) status = sb_world_agree(r->cluster.ranks, status, error);
+    team.places = places;
+    if (status == SB_OK)
+        status = sb_model_build_part(r->scene, estimates ? sb_room_needed : NULL, &team, &r->model, error);
+    sb_free(places);
+    return status;
+}
+
 /* Rank 0 estimates the memory, for all ranks of its host, which share it. With more hosts it is not known. It compares
    what is available when all ranks have the model. */
 static sb_status act_build(run *r, const order *given, sb_error *error)
@@ -32,10 +47,7 @@ static sb_status act_build(run *r, const order *given, sb_error *error)
     const bool estimates = !several || (sb_cluster_leads(r) && sb_world_hosts(r->cluster.ranks) == 1);
     (void)given;
     if (several && estimates) sb_room_share(r->cluster.ranks->count);
-    sb_status status = sb_fit_check(r->scene, error);
-    if (status == SB_OK)
-        status = sb_model_build_part(r->scene, estimates ? sb_room_needed : NULL, sb_ranks_own(r->cluster.ranks),
-                                     sb_ranks_count(r->cluster.ranks), &r->model, error);
+    sb_status status = build_part(r, estimates, error);
     if (several) status = sb_world_agree(r->cluster.ranks, status, error);
     if (status != SB_OK) return status;
     if (estimates) status = sb_room_check(r->scene, &r->model, error);

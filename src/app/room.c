@@ -134,11 +134,12 @@ static double node_bytes(const sb_scene *scene, const sb_model *model)
     return EACH_NODE_BYTES * (size.x / width + MARGIN) * across * (size.z / width + MARGIN);
 }
 
-/* The model, in all ranks of this host. Boundary particles are whole in each. */
+/* The model, in all ranks of this host. */
 static double model_bytes(const sb_scene *scene, const sb_model *model)
 {
     const double fluid = (double)model->fluid_count * MODEL_FLUID_BYTES;
-    return (sb_model_divides(scene) ? 1 : sharing) * fluid + sharing * (double)model->wall_count * MODEL_WALL_BYTES;
+    const double walls = (double)model->wall_count * MODEL_WALL_BYTES;
+    return (sb_model_divides(scene) ? 1 : sharing) * fluid + (sb_model_divides_walls(scene) ? 1 : sharing) * walls;
 }
 
 /* What each rank of a run holds whole besides the model, however many there are. */

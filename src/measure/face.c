@@ -11,6 +11,7 @@ sb_footprint sb_footprint_of(const sb_model *model, size_t body)
 {
     const sb_model_body *of = &model->bodies[body];
     sb_footprint footprint = {{0, 0, 0}, {0, 0, 0}};
+    if (model->walls.divided) return (sb_footprint){of->low, of->high};
     for (size_t i = of->begin; i < of->begin + of->count; i++) {
         sb_vec3 p = model->wall_position[i];
         footprint.min = i == of->begin ? p : sb_min(footprint.min, p);

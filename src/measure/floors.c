@@ -11,6 +11,11 @@ static const double NEAR = 0.72;
 /* Spacings: two floors with a smaller vertical distance count as one. */
 static const double STOREY = 1.5;
 
+double sb_floors_radius(const sb_scene *scene)
+{
+    return NEAR * scene->numerics.wall_spacing * scene->resolution;
+}
+
 void sb_floors_free(sb_floors *floors)
 {
     sb_free(floors->z);
@@ -26,7 +31,7 @@ static int from_the_top(const void *left, const void *right)
 sb_status sb_floors_find(const sb_scene *scene, const sb_model *model, double x, double y, sb_floors *floors,
                          sb_error *error)
 {
-    const double radius = NEAR * scene->numerics.wall_spacing * scene->resolution;
+    const double radius = sb_floors_radius(scene);
     const double offset = scene->numerics.wall_offset * scene->resolution;
     for (size_t b = 0; b < model->body_count && model->wall_normal; b++) {
         const sb_model_body *body = &model->bodies[b];

@@ -253,7 +253,7 @@ static sb_status prepare_bodies(sb_measure *measure, const sb_sim *sim, sb_error
         measure->bodies[b].report = body->report;
         state->start = state->boundary = state->last = *sb_sim_impulse(sim, b);
         /* A terrain has no faces at which water could stand. */
-        state->faces = body->report && body->count > 0 && body->role != SB_ROLE_TERRAIN;
+        state->faces = body->report && sb_model_body_walls(measure->model, b) > 0 && body->role != SB_ROLE_TERRAIN;
         measure->bodies[b].layers = state->faces ? 0 : (double)NAN;
         if (state->faces) state->footprint = sb_footprint_of(measure->model, b);
     }

@@ -8,6 +8,10 @@
 
 typedef struct sb_measurements sb_measure; /* scene.h already has a struct with the tag sb_measure */
 
+/* The places near which measurements read boundary particles, for a model of which each rank has a part. The caller
+   frees *places. SB_FAILED without memory. */
+sb_status sb_measure_places(const sb_scene *scene, sb_model_place **places, size_t *count, sb_error *error);
+
 /* Call after settling. Impulses are summed from this time on. The instant records of this time (gauges, probes, run-up,
    planes, energy) are ready in sb_measure_latest. scene and model must outlive *measure. */
 sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, sb_sim *sim, sb_measure **measure,

@@ -299,21 +299,30 @@ static sb_status choose_face(sb_patch *patch, const sb_scene *scene, const sb_mo
     return status;
 }
 
+static double radius_of(const sb_scene *scene, const sb_probe *probe)
+{
+    return probe->radius > 0 ? probe->radius : PATCH_RADIUS * scene->resolution;
+}
+
+double sb_patch_range(const sb_scene *scene, const sb_probe *probe)
+{
+    const double support = scene->numerics.support * scene->resolution, radius = radius_of(scene, probe);
+    return fmax(1.5 * fmax(radius, support) + support, SB_PATCH_REGION * radius * sqrt(2)) + scene->resolution;
+}
+
 sb_status sb_patch_create(const sb_scene *scene, const sb_model *model, const sb_probe *probe, sb_patch **patch,
                           sb_error *error)
 {
     sb_patch *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, probe->name);
-    double support = scene->numerics.support * scene->resolution;
-    double radius = made->radius = probe->radius > 0 ? probe->radius : PATCH_RADIUS * scene->resolution;
+    made->radius = radius_of(scene, probe);
     for (int axis = 0; axis < 2; axis++) made->period[axis] = sb_repeat_length(scene, model->min, model->max, axis);
     made->spacing = scene->resolution;
     made->flat = scene->dimensions == 2;
     made->offset = scene->numerics.wall_offset * scene->resolution;
     made->wetness_point = probe->at;
     made->first_layer = (scene->numerics.wall_offset + FIRST_LAYER) * scene->resolution;
-    double range = fmax(1.5 * fmax(radius, support) + support, SB_PATCH_REGION * radius * sqrt(2)) + scene->resolution;
-    sb_status status = collect(made, model, probe->at, range, error);
+    sb_status status = collect(made, model, probe->at, sb_patch_range(scene, probe), error);
     if (status == SB_OK) status = choose_face(made, scene, model, probe->at, error);
     if (status != SB_OK) {
         sb_patch_destroy(made);

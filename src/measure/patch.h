@@ -8,6 +8,8 @@
    spacing off). If it is, chooses the patch: the part of one smooth surface around the probe. */
 sb_status sb_patch_create(const sb_scene *scene, const sb_model *model, const sb_probe *probe, sb_patch **patch,
                           sb_error *error);
+/* The distance from the probe at which boundary particles count, m. */
+double sb_patch_range(const sb_scene *scene, const sb_probe *probe);
 void sb_patch_destroy(sb_patch *patch);
 size_t sb_patch_bytes(const sb_patch *patch);
 

@@ -178,7 +178,8 @@ static sb_status check_steps(const sb_scene *scene, sb_model *model, sb_error *e
                          n->time_step_factor, LONGEST_STEP);
 }
 
-sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
+/* The checks before those for which ranks with parts of the boundary particles need each other. */
+static sb_status check_alone(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     sb_status status = SB_OK;
     for (size_t i = 0; i < model->body_count && status == SB_OK; ++i) {
@@ -195,8 +196,15 @@ sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_
     if (status == SB_OK) status = sb_model_warn_ground(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_open(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_gauges(scene, space, model, error);
-    if (status == SB_OK) status = sb_model_warn_clad(scene, model, error);
-    if (status == SB_OK) status = sb_model_warn_gaps(scene, space, model, error);
+    return status;
+}
+
+sb_status sb_model_check(const sb_scene *scene, const sb_model_team *team, const sb_model_space *space,
+                         sb_status before, sb_model *model, sb_error *error)
+{
+    sb_status status = before == SB_OK ? check_alone(scene, space, model, error) : before;
+    status = sb_model_warn_clad(scene, team, status, model, error);
+    status = sb_model_warn_gaps(scene, team, space, status, model, error);
     if (status == SB_OK) status = sb_model_warn_strokes(scene, space, model, error);
     if (status == SB_OK) status = check_steps(scene, model, error);
     return status == SB_OK ? check_water(scene, space, model, error) : status;

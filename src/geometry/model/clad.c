@@ -1,10 +1,11 @@
 /* Warns of static bodies whose surface lies close behind that of another static body (cladding). Within the support
    radius of the water both surfaces carry its load, and neither force is that of the body alone. */
 #include "base/memory.h"
-#include "geometry/model/parts.h"
+#include "geometry/model/walls.h"
 #include "geometry/sampling/set.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* SAME_WAY: cosine between two normals that point the same way. In spacings: BESIDE, distance along the face;
@@ -15,26 +16,46 @@ static const double SAME_WAY = 0.9, BESIDE = 0.75, CLOSEST = 0.05, FIRST = 0.5, 
 /* A body's particles are counted in six faces, by the axis and sign nearest to their normal. */
 enum { FACES = 6 };
 
+/* What was found of two bodies, by this rank or by all. */
+typedef struct pair {
+    uint32_t front, rear, order; /* order: in the list of all ranks */
+    uint64_t found[FACES];       /* particles of the front body behind which the rear body has a surface */
+    uint64_t behind[FACES];      /* particles of the rear body that lie behind the front body */
+    double nearest;              /* m, NaN: none was found */
+    sb_vec3 place;               /* of the particle with that distance, m */
+} pair;
+
 typedef struct search {
     const sb_model *model;
-    double depth;   /* m: a surface farther behind another one carries no load */
-    size_t *totals; /* FACES per body: number of its particles */
-    size_t *found;  /* FACES per body: particles of the front body behind which this body has a surface */
-    size_t *behind; /* FACES per body: particles of this body that lie behind the front body */
-    size_t *seen;   /* per boundary particle: number of the front body for which it was last counted in `behind` */
-    sb_vec3 *min;   /* per body: extent of its particles, m */
+    double depth;     /* m: a surface farther behind another one carries no load */
+    uint64_t *totals; /* FACES per body: number of its particles */
+    pair *present;    /* per body: what was found of the present front body and this one */
+    size_t *seen;     /* per boundary particle: number of the front body for which it was last counted in `behind` */
+    sb_vec3 *min;     /* per body: extent of its particles, m */
     sb_vec3 *max;
-    sb_vec3 *place; /* per body: place of the particle with the smallest distance, m */
-    double *nearest;
+    pair *list; /* by front, then by rear */
+    size_t count, capacity;
     size_t pairs;
     char first[700];  /* text of the first pair: front, rear, place */
     char others[600]; /* further pairs, as many as fit */
     size_t named;
 } search;
 
-static bool is_checked(const sb_model_body *body)
+static bool is_checked(const sb_model *model, size_t body)
 {
-    return body->wavemaker < 0 && body->count > 0;
+    return model->bodies[body].wavemaker < 0 && sb_model_body_walls(model, body) > 0;
+}
+
+/* Whether this rank counts a particle, or has it only because others depend on it. */
+static bool is_own(const sb_model *model, size_t particle)
+{
+    return !model->walls.divided || model->walls.of[particle] == SB_WALL_OWN;
+}
+
+/* Whether all that is near a particle is here. */
+static bool is_inner(const sb_model *model, size_t particle)
+{
+    return !model->walls.divided || model->walls.of[particle] != SB_WALL_GUEST;
 }
 
 static bool overlap(sb_vec3 min, sb_vec3 max, sb_vec3 other_min, sb_vec3 other_max)
@@ -49,7 +70,7 @@ static int gather(const search *s, size_t front, sb_vec3 min, sb_vec3 max, sb_sa
     const sb_model *model = s->model;
     for (size_t b = 0; b < model->body_count; b++) {
         const sb_model_body *body = &model->bodies[b];
-        if (b == front || !is_checked(body) || !(body->report || model->bodies[front].report) ||
+        if (b == front || !is_checked(model, b) || !(body->report || model->bodies[front].report) ||
             !overlap(min, max, s->min[b], s->max[b]))
             continue;
         for (size_t i = body->begin; i < body->begin + body->count; i++) {
@@ -86,45 +107,67 @@ static size_t look_behind(const search *s, const sb_sample_set *near, sb_vec3 at
     return SIZE_MAX;
 }
 
+/* Notes a distance unless a smaller one is known. Of equal ones the first counts. */
+static void note_nearest(pair *p, double depth, sb_vec3 place)
+{
+    if (isnan(depth) || p->nearest <= depth) return;
+    p->nearest = depth;
+    p->place = place;
+}
+
 static void count_behind(search *s, const sb_model_body *front, const sb_sample_set *near)
 {
     const sb_model *model = s->model;
+    const size_t number = (size_t)(front - model->bodies) + 1;
     for (size_t i = front->begin; i < front->begin + front->count; i++) {
         double depth = 0;
+        if (!is_inner(model, i)) continue;
         const size_t rear = look_behind(s, near, model->wall_position[i], model->wall_normal[i], &depth);
         if (rear == SIZE_MAX) continue;
-        const size_t b = body_of(model, rear);
-        if (!(s->nearest[b] <= depth)) {
-            s->nearest[b] = depth;
-            s->place[b] = model->wall_position[i];
+        pair *p = &s->present[body_of(model, rear)];
+        if (is_own(model, i)) {
+            note_nearest(p, depth, model->wall_position[i]);
+            p->found[sb_model_direction_of(model->wall_normal[i])]++;
         }
-        s->found[FACES * b + (size_t)sb_model_direction_of(model->wall_normal[i])]++;
-        const size_t number = (size_t)(front - model->bodies) + 1;
-        if (s->seen[rear] != number) s->behind[FACES * b + (size_t)sb_model_direction_of(model->wall_normal[rear])]++;
+        if (s->seen[rear] != number && is_own(model, rear))
+            p->behind[sb_model_direction_of(model->wall_normal[rear])]++;
         s->seen[rear] = number;
     }
 }
 
-static bool is_affected(const search *s, size_t front, size_t rear)
+static bool is_affected(const search *s, const pair *p)
 {
-    for (size_t f = 0; f < FACES; f++) {
-        const size_t found = s->found[FACES * rear + f], behind = s->behind[FACES * rear + f];
-        if ((double)found > SHARE * (double)s->totals[FACES * front + f] ||
-            (double)behind > SHARE * (double)s->totals[FACES * rear + f])
+    for (size_t f = 0; f < FACES; f++)
+        if ((double)p->found[f] > SHARE * (double)s->totals[FACES * p->front + f] ||
+            (double)p->behind[f] > SHARE * (double)s->totals[FACES * p->rear + f])
             return true;
-    }
     return false;
 }
 
-static void add_pair(search *s, const sb_model_body *front, const sb_model_body *rear, sb_vec3 place, double depth)
+/* Adds what was found of the present front body to the list. Returns 0, or -1 without memory. */
+static int list_pairs(search *s)
 {
+    for (size_t b = 0; b < s->model->body_count; b++) {
+        const pair *p = &s->present[b];
+        uint64_t any = 0;
+        for (int f = 0; f < FACES; f++) any += p->found[f] + p->behind[f];
+        if (any == 0) continue;
+        if (sb_grow((void **)&s->list, &s->capacity, s->count + 1, sizeof *s->list) != 0) return -1;
+        s->list[s->count++] = *p;
+    }
+    return 0;
+}
+
+static void add_pair(search *s, const pair *p)
+{
+    const sb_model_body *front = &s->model->bodies[p->front], *rear = &s->model->bodies[p->rear];
     const size_t length = strlen(s->others);
     if (s->pairs++ == 0) {
         snprintf(s->first, sizeof s->first,
                  "bodies \"%s\" and \"%s\": the surface of the second lies about %.2g m behind that of the first, near "
                  "(%.4g, "
                  "%.4g, %.4g)",
-                 front->name, rear->name, depth, place.x, place.y, place.z);
+                 front->name, rear->name, p->nearest, p->place.x, p->place.y, p->place.z);
         return;
     }
     if (length + strlen(front->name) + strlen(rear->name) + 32 > sizeof s->others) return;
@@ -133,7 +176,7 @@ static void add_pair(search *s, const sb_model_body *front, const sb_model_body 
     s->named++;
 }
 
-static sb_status check_body(search *s, size_t front, sb_error *error)
+static int find_behind(search *s, size_t front)
 {
     const sb_model *model = s->model;
     const sb_model_body *body = &model->bodies[front];
@@ -143,16 +186,13 @@ static sb_status check_body(search *s, size_t front, sb_error *error)
     sb_sample_set near = {.cell = model->spacing, .origin = min};
     if (gather(s, front, min, max, &near) != 0) {
         sb_sample_set_free(&near);
-        return sb_fail_memory(error, "surfaces behind surfaces");
+        return -1;
     }
-    memset(s->found, 0, FACES * model->body_count * sizeof *s->found);
-    memset(s->behind, 0, FACES * model->body_count * sizeof *s->behind);
-    for (size_t b = 0; b < model->body_count; b++) s->nearest[b] = (double)NAN;
+    for (size_t b = 0; b < model->body_count; b++)
+        s->present[b] = (pair){.front = (uint32_t)front, .rear = (uint32_t)b, .nearest = (double)NAN};
     count_behind(s, body, &near);
     sb_sample_set_free(&near);
-    for (size_t b = 0; b < model->body_count; b++)
-        if (is_affected(s, front, b)) add_pair(s, body, &model->bodies[b], s->place[b], s->nearest[b]);
-    return SB_OK;
+    return list_pairs(s);
 }
 
 static void measure_bodies(search *s)
@@ -161,54 +201,104 @@ static void measure_bodies(search *s)
     for (size_t b = 0; b < model->body_count; b++) {
         const sb_model_body *body = &model->bodies[b];
         for (size_t i = body->begin; i < body->begin + body->count; i++) {
+            if (!is_own(model, i)) continue;
             s->totals[FACES * b + (size_t)sb_model_direction_of(model->wall_normal[i])]++;
             s->min[b] = i == body->begin ? model->wall_position[i] : sb_min(s->min[b], model->wall_position[i]);
             s->max[b] = i == body->begin ? model->wall_position[i] : sb_max(s->max[b], model->wall_position[i]);
         }
+        if (!model->walls.divided) continue;
+        s->min[b] = body->low;
+        s->max[b] = body->high;
     }
 }
 
-static sb_status check_all(search *s, sb_error *error)
+static int find_all(search *s)
 {
-    sb_status status = SB_OK;
     measure_bodies(s);
-    for (size_t b = 0; b < s->model->body_count && status == SB_OK; b++)
-        if (is_checked(&s->model->bodies[b])) status = check_body(s, b, error);
-    return status;
+    for (size_t b = 0; b < s->model->body_count; b++)
+        if (is_checked(s->model, b) && find_behind(s, b) != 0) return -1;
+    return 0;
+}
+
+/* ---- several ranks ---- */
+
+static int by_bodies(const void *left, const void *right)
+{
+    const pair *a = left, *b = right;
+    if (a->front != b->front) return a->front < b->front ? -1 : 1;
+    if (a->rear != b->rear) return a->rear < b->rear ? -1 : 1;
+    return (a->order > b->order) - (a->order < b->order);
+}
+
+/* Adds up what all ranks have found of the same bodies. The ranks are in the order of the particles. */
+static void merge(pair *list, size_t *count)
+{
+    size_t kept = 0;
+    for (size_t k = 0; k < *count; k++) list[k].order = (uint32_t)k;
+    if (*count > 0) qsort(list, *count, sizeof *list, by_bodies);
+    for (size_t k = 0; k < *count; k++) {
+        pair *last = kept > 0 ? &list[kept - 1] : NULL;
+        if (!last || last->front != list[k].front || last->rear != list[k].rear) {
+            list[kept++] = list[k];
+            continue;
+        }
+        note_nearest(last, list[k].nearest, list[k].place);
+        for (int f = 0; f < FACES; f++) {
+            last->found[f] += list[k].found[f];
+            last->behind[f] += list[k].behind[f];
+        }
+    }
+    *count = kept;
+}
+
+/* Makes the search of this rank that of all. */
+static sb_status join(search *s, const sb_model_team *team, sb_status before, sb_error *error)
+{
+    void *all = NULL;
+    size_t count = 0;
+    const sb_status status = sb_team_collect(team, before, s->list, s->count, sizeof *s->list, &all, &count, error);
+    if (status != SB_OK) return status;
+    sb_ranks_add(team->ranks, s->totals, FACES * s->model->body_count);
+    sb_free(s->list);
+    s->list = all;
+    s->count = count;
+    merge(s->list, &s->count);
+    return SB_OK;
 }
 
 static int allocate(search *s)
 {
     const size_t bodies = s->model->body_count;
     s->totals = sb_alloc(FACES * bodies, sizeof *s->totals);
-    s->found = sb_alloc(FACES * bodies, sizeof *s->found);
-    s->behind = sb_alloc(FACES * bodies, sizeof *s->behind);
-    s->seen = sb_alloc(s->model->wall_count, sizeof *s->seen);
+    s->present = sb_alloc(bodies, sizeof *s->present);
+    s->seen = sb_alloc(s->model->walls.divided ? s->model->walls.here : s->model->wall_count, sizeof *s->seen);
     s->min = sb_alloc(bodies, sizeof *s->min);
     s->max = sb_alloc(bodies, sizeof *s->max);
-    s->place = sb_alloc(bodies, sizeof *s->place);
-    s->nearest = sb_alloc(bodies, sizeof *s->nearest);
-    return s->totals && s->found && s->behind && s->seen && s->min && s->max && s->place && s->nearest ? 0 : -1;
+    return s->totals && s->present && s->seen && s->min && s->max ? 0 : -1;
 }
 
 static void release(search *s)
 {
     sb_free(s->totals);
-    sb_free(s->found);
-    sb_free(s->behind);
+    sb_free(s->present);
     sb_free(s->seen);
     sb_free(s->min);
     sb_free(s->max);
-    sb_free(s->place);
-    sb_free(s->nearest);
+    sb_free(s->list);
 }
 
-sb_status sb_model_warn_clad(const sb_scene *scene, sb_model *model, sb_error *error)
+sb_status sb_model_warn_clad(const sb_scene *scene, const sb_model_team *team, sb_status before, sb_model *model,
+                             sb_error *error)
 {
     const sb_numerics *n = &scene->numerics;
     search s = {.model = model, .depth = (n->support - n->wall_offset - FIRST) * model->spacing};
     char more[40] = "";
-    sb_status status = allocate(&s) != 0 ? sb_fail_memory(error, "surfaces behind surfaces") : check_all(&s, error);
+    sb_status status = before;
+    if (status == SB_OK && (allocate(&s) != 0 || find_all(&s) != 0))
+        status = sb_fail_memory(error, "surfaces behind surfaces");
+    if (team) status = join(&s, team, status, error);
+    for (size_t k = 0; k < s.count && status == SB_OK; k++)
+        if (is_affected(&s, &s.list[k])) add_pair(&s, &s.list[k]);
     if (s.pairs > s.named + 1) snprintf(more, sizeof more, " and %zu more", s.pairs - s.named - 1);
     if (status == SB_OK && s.pairs > 0)
         status =

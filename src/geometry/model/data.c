@@ -41,6 +41,8 @@ void sb_model_free_particles(sb_model *model)
     sb_free(model->fluid_pressure);
     sb_free(model->wall_position);
     sb_free(model->wall_normal);
+    sb_free(model->walls.of);
+    model->walls.of = NULL;
     model->fluid_position = model->fluid_velocity = model->wall_position = model->wall_normal = NULL;
     model->fluid_pressure = NULL;
 }

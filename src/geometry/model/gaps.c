@@ -2,7 +2,7 @@
    too close for the water between them. The pressure in such a gap is wrong or missing, so the forces on both bodies
    are unreliable. */
 #include "base/memory.h"
-#include "geometry/model/parts.h"
+#include "geometry/model/walls.h"
 
 #include <stdio.h>
 
@@ -38,20 +38,27 @@ typedef struct hit {
 typedef struct pair {
     double width; /* m, the narrowest; INFINITY: none */
     sb_vec3 place;
-    size_t found[FACES]; /* particles of the first body's faces */
+    uint64_t found[FACES]; /* particles of the first body's faces */
 } pair;
+
+/* The same on its way between ranks, with the index of the pair. */
+typedef struct message {
+    uint64_t index;
+    pair found;
+} message;
 
 typedef struct search {
     const sb_scene *scene;
     const sb_model_space *space;
     sb_model *model;
+    bool first;         /* of ranks that have parts of the boundary particles, this is rank 0 */
     double limit;       /* m */
     sb_vec3 *min, *max; /* m, extent of each body's surface */
     other *near;
     size_t near_count;
-    hit *hits;      /* per boundary particle of the present body */
-    pair *pairs;    /* bodies x bodies: gaps that rays of the first body found */
-    size_t *totals; /* FACES per body */
+    hit *hits;        /* per boundary particle of the present body */
+    pair *pairs;      /* bodies x bodies: gaps that rays of the first body found */
+    uint64_t *totals; /* FACES per body */
 } search;
 
 /* Moves a coordinate across a periodic side into the domain. Returns false if it is outside of a domain that does not
@@ -131,12 +138,22 @@ static int find_near(search *s, size_t body, size_t *capacity)
     return 0;
 }
 
+/* Whether this rank searches from a particle. Each has all of moving bodies. */
+static bool is_own(const search *s, size_t body, size_t particle)
+{
+    const sb_model *model = s->model;
+    if (!model->walls.divided) return true;
+    return model->bodies[body].wavemaker < 0 ? model->walls.of[particle] == SB_WALL_OWN : s->first;
+}
+
 static void search_body(search *s, size_t index)
 {
     const sb_model_body *body = &s->model->bodies[index];
 #pragma omp parallel for schedule(dynamic, 256)
-    for (size_t i = 0; i < body->count; i++) s->hits[i] = cast(s, index, body->begin + i);
+    for (size_t i = 0; i < body->count; i++)
+        if (is_own(s, index, body->begin + i)) s->hits[i] = cast(s, index, body->begin + i);
     for (size_t i = 0; i < body->count; i++) {
+        if (!is_own(s, index, body->begin + i)) continue;
         const int face = sb_model_direction_of(s->model->wall_normal[body->begin + i]);
         s->totals[FACES * index + (size_t)face]++;
         if (!isfinite(s->hits[i].width)) continue;
@@ -229,11 +246,60 @@ static int search_all(search *s)
     return 0;
 }
 
-sb_status sb_model_warn_gaps(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
+/* ---- several ranks ---- */
+
+/* Lists the pairs of bodies with gaps. Returns 0, or -1 without memory. */
+static int list_pairs(const search *s, message **list, size_t *count)
+{
+    const size_t bodies = s->model->body_count;
+    size_t capacity = 0;
+    for (size_t k = 0; k < bodies * bodies; k++) {
+        if (isinf(s->pairs[k].width)) continue;
+        if (sb_grow((void **)list, &capacity, *count + 1, sizeof **list) != 0) return -1;
+        (*list)[(*count)++] = (message){k, s->pairs[k]};
+    }
+    return 0;
+}
+
+/* Adds what a rank has found. The ranks are in the order of the particles: of equal gaps the first counts. */
+static void add_found(search *s, const message *one)
+{
+    pair *p = &s->pairs[one->index];
+    for (int f = 0; f < FACES; f++) p->found[f] += one->found.found[f];
+    if (one->found.width >= p->width) return;
+    p->width = one->found.width;
+    p->place = one->found.place;
+}
+
+/* Makes the search of this rank that of all. */
+static sb_status join(search *s, const sb_model_team *team, sb_status before, sb_error *error)
+{
+    const size_t bodies = s->model->body_count;
+    message *own = NULL;
+    void *all = NULL;
+    size_t count = 0, all_count = 0;
+    sb_status status = before;
+    if (status == SB_OK && list_pairs(s, &own, &count) != 0) status = sb_fail_memory(error, "gaps between bodies");
+    status = sb_team_collect(team, status, own, count, sizeof *own, &all, &all_count, error);
+    sb_free(own);
+    if (status != SB_OK) return status;
+    sb_ranks_add(team->ranks, s->totals, bodies * FACES);
+    for (size_t k = 0; k < bodies * bodies; k++) s->pairs[k] = (pair){.width = (double)INFINITY};
+    for (size_t k = 0; k < all_count; k++) add_found(s, (const message *)all + k);
+    sb_free(all);
+    return SB_OK;
+}
+
+sb_status sb_model_warn_gaps(const sb_scene *scene, const sb_model_team *team, const sb_model_space *space,
+                             sb_status before, sb_model *model, sb_error *error)
 {
     const double resolved = scene->numerics.walls == SB_WALLS_IMAGES ? SB_GAP_IMAGES : SB_GAP_PARTICLES;
     search s = {.scene = scene, .space = space, .model = model, .limit = resolved * model->spacing};
-    const sb_status status = search_all(&s) != 0 ? sb_fail_memory(error, "gaps between bodies") : report(&s, error);
+    s.first = team && sb_ranks_own(team->ranks) == 0;
+    sb_status status = before;
+    if (status == SB_OK && search_all(&s) != 0) status = sb_fail_memory(error, "gaps between bodies");
+    if (team) status = join(&s, team, status, error);
+    if (status == SB_OK) status = report(&s, error);
     sb_free(s.min);
     sb_free(s.max);
     sb_free(s.near);

@@ -20,14 +20,32 @@ static uint64_t hash_water(const sb_model *model)
     return sb_hash(hash, model->fluid_pressure, model->fluid_count * sizeof *model->fluid_pressure);
 }
 
-uint64_t sb_model_hash(const sb_model *model)
+uint64_t sb_model_hash_wall(const sb_model *model, size_t body, size_t particle)
 {
-    uint64_t hash = hash_water(model);
-    hash = sb_hash(hash, model->wall_position, model->wall_count * sizeof *model->wall_position);
-    if (model->wall_normal) hash = sb_hash(hash, model->wall_normal, model->wall_count * sizeof *model->wall_normal);
+    const uint64_t hash = sb_hash(body, &model->wall_position[particle], sizeof *model->wall_position);
+    if (!model->wall_normal) return hash;
+    return sb_hash(hash, &model->wall_normal[particle], sizeof *model->wall_normal);
+}
+
+/* A sum over the boundary particles, to which each of several ranks can add its own. */
+static uint64_t hash_walls(const sb_model *model)
+{
+    uint64_t hash = 0;
+    if (model->walls.divided) return model->walls.hash;
     for (size_t b = 0; b < model->body_count; b++) {
         const sb_model_body *body = &model->bodies[b];
-        const uint64_t facts[] = {body->begin, body->count, (uint64_t)body->wavemaker, body->report};
+        for (size_t i = body->begin; i < body->begin + body->count; i++) hash += sb_model_hash_wall(model, b, i);
+    }
+    return hash;
+}
+
+uint64_t sb_model_hash(const sb_model *model)
+{
+    const uint64_t walls = hash_walls(model);
+    uint64_t hash = sb_hash(hash_water(model), &walls, sizeof walls);
+    for (size_t b = 0; b < model->body_count; b++) {
+        const sb_model_body *body = &model->bodies[b];
+        const uint64_t facts[] = {sb_model_body_walls(model, b), (uint64_t)body->wavemaker, body->report};
         hash = sb_hash(hash, body->name, strlen(body->name));
         hash = sb_hash(hash, facts, sizeof facts);
         hash = sb_hash(hash, &body->moment_point, sizeof body->moment_point);

@@ -4,6 +4,8 @@
 #ifndef SB_GEOMETRY_MODEL_H
 #define SB_GEOMETRY_MODEL_H
 
+#include "base/ranks.h"
+#include "base/status.h"
 #include "geometry/facets/facet.h"
 #include "geometry/mesh/mesh.h"
 #include "offshore/start.h"
@@ -11,7 +13,8 @@
 
 #include <math.h>
 
-/* A rigid body. Its boundary particles are [begin, begin + count) of the model's. */
+/* A rigid body. Its boundary particles are [begin, begin + count) of the model's; of a model with a part of them, those
+   that are here. */
 typedef struct sb_model_body {
     char name[SB_NAME_MAX];
     size_t begin, count;
@@ -28,6 +31,9 @@ typedef struct sb_model_body {
        the paddle's name, and the forces on all. 0, 0: a body that is not divided. */
     size_t plate, plates;
     double held; /* share of the motion that it does not make: of the rows of a flap; else 0 */
+    /* Of a model with a part of the boundary particles, of all of the body's; else 0. */
+    size_t all;
+    sb_vec3 low, high; /* m, extent; of a body without boundary particles 0 */
 } sb_model_body;
 
 /* The ground within `width` of a side through which a given sea comes in: cells of `step` inwards and `pitch` along the
@@ -47,6 +53,18 @@ typedef struct sb_model_part {
     uint64_t hash;     /* of all, and of what sb_model_hash has before them */
 } sb_model_part;
 
+/* What a rank has a boundary particle for: it is of its slabs; of a slab beside them; near a place or a moving body,
+   where all ranks have it. Those of moving bodies are each rank's own. */
+typedef enum sb_wall_of { SB_WALL_OWN, SB_WALL_BESIDE, SB_WALL_GUEST } sb_wall_of;
+
+/* The part of the boundary particles that one of several ranks has, and what it knows of all of them. */
+typedef struct sb_model_walls {
+    bool divided;      /* false: the model has them all, and the rest of this structure is 0 */
+    size_t here;       /* in the arrays, in the order of all */
+    unsigned char *of; /* sb_wall_of of each */
+    uint64_t hash;     /* of all */
+} sb_model_walls;
+
 typedef struct sb_model {
     sb_vec3 min, max; /* m, the domain; min is the origin of stored positions */
     int dimensions;
@@ -60,10 +78,11 @@ typedef struct sb_model {
     sb_vec3 *fluid_position; /* m */
     sb_vec3 *fluid_velocity; /* m/s; NULL: freed, all zero */
     double *fluid_pressure;  /* Pa, initial guess: hydrostatic */
-    size_t wall_count;
-    sb_vec3 *wall_position; /* m, on the boundary surface, at t = 0 */
-    sb_vec3 *wall_normal;   /* unit, towards the water */
-    sb_facets facets;       /* of walls that reflect water; empty with other walls */
+    size_t wall_count;       /* boundary particles, of all ranks */
+    sb_model_walls walls;    /* which of them are here */
+    sb_vec3 *wall_position;  /* m, on the boundary surface, at t = 0 */
+    sb_vec3 *wall_normal;    /* unit, towards the water */
+    sb_facets facets;        /* of walls that reflect water; empty with other walls */
     size_t body_count;
     sb_model_body *bodies;
     bool *shallow; /* per gauge of the scene: a warning reports that its still water is too shallow; NULL: there are no
@@ -77,6 +96,12 @@ typedef struct sb_model {
 static inline double sb_model_wave_speed(const sb_scene *scene, const sb_model *model)
 {
     return sqrt(scene->fluid.gravity * fmax(fmax(model->still_depth, model->sea_depth), scene->resolution));
+}
+
+/* The boundary particles of a body, of all ranks. */
+static inline size_t sb_model_body_walls(const sb_model *model, size_t body)
+{
+    return model->walls.divided ? model->bodies[body].all : model->bodies[body].count;
 }
 
 /* water.c: the fluid particles here. */
@@ -111,17 +136,36 @@ sb_status sb_model_build(const sb_scene *scene, sb_model *model, sb_error *error
 typedef double sb_model_need(const sb_scene *scene, const sb_model *model);
 sb_status sb_model_build_for(const sb_scene *scene, sb_model_need *need, sb_model *model, sb_error *error);
 
-/* The same for rank `rank` of `ranks`, which has a part of the fluid particles if the water can be placed in parts (it
-   is one sea or one box): model->part. All ranks have the same model otherwise, warnings and hash included. They send
-   nothing to each other. */
-sb_status sb_model_build_part(const sb_scene *scene, sb_model_need *need, int rank, int ranks, sb_model *model,
+/* A place near which all ranks have the boundary particles: within `range` (m) of the line between two points; column:
+   at all heights; else of a point, or of its images beyond periodic sides. */
+typedef struct sb_model_place {
+    sb_vec3 at, to; /* m */
+    double range;
+    bool column;
+} sb_model_place;
+
+/* The ranks that build a model together. agree: gives all ranks the same failure if one has failed. */
+typedef struct sb_model_team {
+    sb_ranks *ranks; /* NULL: one */
+    sb_status (*agree)(sb_ranks *ranks, sb_status own, sb_error *error);
+    const sb_model_place *places;
+    size_t place_count;
+} sb_model_team;
+
+/* The same for one of several ranks, all of which call it. It has a part of the fluid particles if the water can be
+   placed in parts (it is one sea or one box): model->part; and a part of the boundary particles if the longest axis
+   is not periodic and there are neither foam nor dynamic boundary particles: model->walls. All ranks have the same
+   model otherwise, warnings and hash included. */
+sb_status sb_model_build_part(const sb_scene *scene, sb_model_need *need, const sb_model_team *team, sb_model *model,
                               sb_error *error);
-/* Whether sb_model_build_part divides the fluid particles of a scene. */
+/* Whether sb_model_build_part divides the fluid particles of a scene, and the boundary particles. */
 bool sb_model_divides(const sb_scene *scene);
+bool sb_model_divides_walls(const sb_scene *scene);
 void sb_model_free(sb_model *model);
 
 /* Returns a hash of all parts of the model on which the simulation and its measurements depend. Runs of two models
-   with the same hash give the same results. */
+   with the same hash give the same results. The order of a body's boundary particles, which follows from the meshes, is
+   not part of it. */
 uint64_t sb_model_hash(const sb_model *model);
 
 /* Frees the initial positions and pressures of the fluid particles, and their velocities if all are zero (then

@@ -1,13 +1,13 @@
 /* Places the boundary particles of surfaces and the fluid particles of the water. */
 #include "base/memory.h"
 #include "geometry/filling/fill.h"
-#include "geometry/model/parts.h"
-#include "geometry/sampling/sample.h"
+#include "geometry/model/walls.h"
 
-/* Samples the bodies that have a surface. */
-sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
+/* The bodies that have a surface. */
+sb_status sb_model_surfaces_create(const sb_scene *scene, const sb_model_space *space, const sb_model *model,
+                                   sb_model_surfaces *surfaces, sb_error *error)
 {
-    const sb_sample_settings settings = {
+    surfaces->settings = (sb_sample_settings){
         .spacing = scene->numerics.wall_spacing * scene->resolution,
         .offset = scene->numerics.wall_offset * scene->resolution,
         .support = scene->numerics.support * scene->resolution,
@@ -15,36 +15,55 @@ sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb
         .min = scene->domain.min,
         .max = scene->domain.max,
         .repeats = {sb_scene_repeats(scene, 0), sb_scene_repeats(scene, 1), sb_scene_repeats(scene, 2)}};
-    sb_sample_source *sources = sb_alloc(space->count, sizeof *sources);
-    if (!sources) return sb_fail_memory(error, "surfaces");
-    sb_wholes *wholes = NULL;
-    size_t count = 0;
-    sb_samples samples = {.count = 0};
-    sb_status status = sb_wholes_create(scene, model, &wholes, error);
+    surfaces->sources = sb_alloc(space->count, sizeof *surfaces->sources);
+    if (!surfaces->sources) return sb_fail_memory(error, "surfaces");
+    const sb_status status = sb_wholes_create(scene, model, &surfaces->wholes, error);
     for (size_t i = 0; i < space->count && status == SB_OK; ++i) {
+        sb_sample_source *source = &surfaces->sources[surfaces->count];
         if (!space->solid[i]) continue;
-        sources[count] =
+        *source =
             (sb_sample_source){space->mesh[i], space->solid[i], model->bodies[i].role, model->bodies[i].wavemaker >= 0};
-        count += sb_wholes_source(wholes, model, i, &sources[count]);
+        surfaces->count += sb_wholes_source(surfaces->wholes, model, i, source);
     }
-    if (status == SB_OK) status = sb_sample_surfaces(&settings, sources, count, &samples, error);
-    sb_wholes_destroy(wholes);
-    sb_free(sources);
-    if (status != SB_OK) return status;
-    count = 0;
+    return status;
+}
+
+void sb_model_surfaces_free(sb_model_surfaces *surfaces)
+{
+    sb_wholes_destroy(surfaces->wholes);
+    sb_free(surfaces->sources);
+    *surfaces = (sb_model_surfaces){.count = 0};
+}
+
+sb_status sb_model_take_samples(const sb_scene *scene, const sb_model_space *space, sb_samples *samples,
+                                sb_model *model, sb_error *error)
+{
+    size_t count = 0;
+    sb_status status = SB_OK;
     for (size_t i = 0; i < space->count; ++i) {
         sb_model_body *body = model->bodies + i;
-        body->begin = samples.begin[count];
-        if (space->solid[i] && body->plate == 0) body->count = samples.begin[++count] - body->begin;
+        body->begin = samples->begin[count];
+        if (space->solid[i] && body->plate == 0) body->count = samples->begin[++count] - body->begin;
     }
-    model->wall_count = samples.count;
-    model->wall_position = samples.position;
-    model->wall_normal = samples.normal;
-    sb_free(samples.begin);
+    model->wall_count = samples->count;
+    model->wall_position = samples->position;
+    model->wall_normal = samples->normal;
+    sb_free(samples->begin);
     for (size_t i = 0; i < space->count && status == SB_OK; ++i)
         if (model->bodies[i].plate == 0 && sb_model_share_plates(scene, model, i) != 0)
             status = sb_fail_memory(error, "plates");
     return status;
+}
+
+sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
+{
+    sb_model_surfaces surfaces = {.count = 0};
+    sb_samples samples = {.count = 0};
+    sb_status status = sb_model_surfaces_create(scene, space, model, &surfaces, error);
+    if (status == SB_OK)
+        status = sb_sample_surfaces(&surfaces.settings, surfaces.sources, surfaces.count, &samples, error);
+    sb_model_surfaces_free(&surfaces);
+    return status == SB_OK ? sb_model_take_samples(scene, space, &samples, model, error) : status;
 }
 
 /* Warns of boxes that are probably not as intended. */

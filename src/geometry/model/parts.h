@@ -42,8 +42,11 @@ sb_status sb_model_check_sides(const sb_scene *scene, const sb_model_space *spac
    threads. */
 sb_status sb_model_facets(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
-/* Adds warnings of what is too coarse or too thin for reliable results, and of inputs that are probably mistakes. */
-sb_status sb_model_check(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+/* Adds warnings of what is too coarse or too thin for reliable results, and of inputs that are probably mistakes.
+   team: the ranks that have parts of the boundary particles, all of which call it; NULL: the model has them all.
+   before: what has been found so far; with a failure nothing is checked, but the other ranks get to know it. */
+sb_status sb_model_check(const sb_scene *scene, const sb_model_team *team, const sb_model_space *space,
+                         sb_status before, sb_model *model, sb_error *error);
 
 /* plates.c: the part of a paddle that is one of its push-plates; the first and the last have what is outside of the
    domain. */
@@ -72,17 +75,22 @@ sb_status sb_model_warn_thin(const sb_scene *scene, sb_model *model, sb_error *e
 /* Adds a warning for each moving body whose face is less than a support radius in front of a wall that faces the
    same way. */
 sb_status sb_model_warn_shared(const sb_scene *scene, sb_model *model, sb_error *error);
+/* The box around a moving body in which that looks for walls. */
+void sb_model_shared_box(const sb_scene *scene, const sb_model *model, const sb_model_body *body, sb_vec3 *min,
+                         sb_vec3 *max);
 
 /* Adds one warning for all static bodies whose surface lies so close behind that of another that both carry its
-   load. */
-sb_status sb_model_warn_clad(const sb_scene *scene, sb_model *model, sb_error *error);
+   load. team, before: as of sb_model_check. */
+sb_status sb_model_warn_clad(const sb_scene *scene, const sb_model_team *team, sb_status before, sb_model *model,
+                             sb_error *error);
 
 /* Adds a warning for each pair of bodies (or body with itself) with a gap between them that is too narrow for the
-   walls, and sets body->gap. In spacings, the narrowest gaps that walls of each kind resolve: at them the force on a
-   block in still water beside an alley is within 3 % of a face's load. */
+   walls, and sets body->gap. team, before: as of sb_model_check. In spacings, the narrowest gaps that walls of each
+   kind resolve: at them the force on a block in still water beside an alley is within 3 % of a face's load. */
 #define SB_GAP_PARTICLES 1.5
 #define SB_GAP_IMAGES 1.0
-sb_status sb_model_warn_gaps(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+sb_status sb_model_warn_gaps(const sb_scene *scene, const sb_model_team *team, const sb_model_space *space,
+                             sb_status before, sb_model *model, sb_error *error);
 
 /* Adds a warning for each grid with missing heights that are not marked as such, and for each terrain below the
    domain's floor where water is. */
@@ -115,6 +123,10 @@ sb_status sb_model_warn_wave(const sb_scene *scene, const sb_wave_room *room, sb
 
 /* particles.c: places the boundary particles and the fluid particles. */
 sb_status sb_model_sample(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+/* walls.c: samples this rank's part of the surfaces. All ranks call it; before: what each has found so far, of which a
+   failure becomes that of all. */
+sb_status sb_model_sample_part(const sb_scene *scene, const sb_model_team *team, const sb_model_space *space,
+                               sb_status before, sb_model *model, sb_error *error);
 sb_status sb_model_fill(const sb_scene *scene, const sb_fill_share *share, sb_model_space *space, sb_model *model,
                         sb_error *error);
 
@@ -132,6 +144,14 @@ sb_status sb_model_visit_water(const sb_model_space *space, const sb_model *mode
 sb_status sb_model_know_water(const sb_model_space *space, sb_model *model, sb_error *error);
 /* hash.c: the hash of what precedes the fluid particles in a model's. */
 uint64_t sb_model_hash_before(const sb_model *model);
+/* The hash of a body's boundary particle, at index `particle` of the model's. */
+uint64_t sb_model_hash_wall(const sb_model *model, size_t body, size_t particle);
+
+/* Whether a point is within a box. */
+static inline bool sb_box_contains(sb_vec3 min, sb_vec3 max, sb_vec3 at)
+{
+    return !(at.x < min.x || at.y < min.y || at.z < min.z || at.x > max.x || at.y > max.y || at.z > max.z);
+}
 
 /* SB_BAD_INPUT, with the figures and a spacing that would fit, if the particles of these bodies and their water need
    more memory than may be planned with (see sb_model_build_for). */

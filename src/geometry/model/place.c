@@ -83,7 +83,8 @@ static extent extent_of(const sb_mesh *mesh)
 static bool is_elsewhere(const sb_scene *scene, const sb_model *model, const sb_model_body *body, extent of)
 {
     char advice[160] = "";
-    if (!is_apart(model, of) || (body->count > 0 && !body->report)) return false;
+    const bool sampled = sb_model_body_walls(model, (size_t)(body - model->bodies)) > 0;
+    if (!is_apart(model, of) || (sampled && !body->report)) return false;
     advise(scene, model, body, of, advice, sizeof advice);
     return !advice[0];
 }
@@ -126,7 +127,7 @@ sb_status sb_model_warn_place(const sb_scene *scene, const sb_model_body *body, 
     const bool large = closed && largest(model, size) > MANY * largest(model, sb_sub(model->max, model->min));
     const bool small = closed && largest(model, size) < TINY * model->spacing;
     if (apart || large || small) advise(scene, model, body, of, advice, sizeof advice);
-    if (body->count == 0 || (apart && body->report))
+    if (sb_model_body_walls(model, (size_t)(body - model->bodies)) == 0 || (apart && body->report))
         return sb_model_warn(model, error,
                              "body \"%s\" has no surface that water could reach: it is %s; it is %g x %g x %g m, "
                              "from (%g, %g, %g) to (%g, %g, %g)%s",

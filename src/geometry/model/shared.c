@@ -17,7 +17,7 @@ static int gather(const sb_model *model, sb_vec3 min, sb_vec3 max, sb_sample_set
         if (body->wavemaker >= 0) continue;
         for (size_t i = body->begin; i < body->begin + body->count; i++) {
             const sb_vec3 at = model->wall_position[i];
-            if (at.x < min.x || at.y < min.y || at.z < min.z || at.x > max.x || at.y > max.y || at.z > max.z) continue;
+            if (!sb_box_contains(min, max, at)) continue;
             const sb_sample one = {.at = at, .normal = model->wall_normal[i], .source = (uint32_t)b};
             if (sb_sample_set_add(near, &one) != 0) return -1;
         }
@@ -38,18 +38,27 @@ static size_t behind(const sb_sample_set *near, sb_vec3 at, sb_vec3 normal, doub
     return SIZE_MAX;
 }
 
+void sb_model_shared_box(const sb_scene *scene, const sb_model *model, const sb_model_body *body, sb_vec3 *min,
+                         sb_vec3 *max)
+{
+    const double support = scene->numerics.support * model->spacing;
+    const sb_vec3 margin = sb_vec(2 * support, 2 * support, 2 * support);
+    *min = *max = model->wall_position[body->begin];
+    for (size_t i = body->begin; i < body->begin + body->count; i++) {
+        *min = sb_min(*min, model->wall_position[i]);
+        *max = sb_max(*max, model->wall_position[i]);
+    }
+    *min = sb_sub(*min, margin);
+    *max = sb_add(*max, margin);
+}
+
 static sb_status check_body(const sb_scene *scene, sb_model *model, const sb_model_body *body, sb_sample_set *near,
                             sb_error *error)
 {
     const double support = scene->numerics.support * model->spacing;
-    sb_vec3 min = model->wall_position[body->begin], max = min, first = min;
-    for (size_t i = body->begin; i < body->begin + body->count; i++) {
-        min = sb_min(min, model->wall_position[i]);
-        max = sb_max(max, model->wall_position[i]);
-    }
-    const sb_vec3 margin = sb_vec(2 * support, 2 * support, 2 * support);
-    near->origin = sb_sub(min, margin);
-    if (gather(model, near->origin, sb_add(max, margin), near) != 0) return sb_fail_memory(error, "walls behind walls");
+    sb_vec3 first = model->wall_position[body->begin], max;
+    sb_model_shared_box(scene, model, body, &near->origin, &max);
+    if (gather(model, near->origin, max, near) != 0) return sb_fail_memory(error, "walls behind walls");
     size_t count = 0, wall = SIZE_MAX;
     for (size_t i = body->begin; i < body->begin + body->count; i++) {
         const size_t found = behind(near, model->wall_position[i], model->wall_normal[i], model->spacing, support);

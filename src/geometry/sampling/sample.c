@@ -16,6 +16,7 @@ void sb_samples_free(sb_samples *samples)
     sb_free(samples->begin);
     sb_free(samples->position);
     sb_free(samples->normal);
+    sb_free(samples->slab);
     *samples = (sb_samples){0};
 }
 
@@ -30,22 +31,28 @@ static bool belongs(const sb_sample_settings *settings, sb_vec3 at)
 
 /* Particles of one source. */
 typedef struct share {
-    size_t count, position_capacity, normal_capacity;
+    size_t count, position_capacity, normal_capacity, slab_capacity;
     sb_vec3 *position, *normal;
+    uint32_t *slab; /* NULL: all slabs are sampled */
 } share;
 
 /* What is collected of all groups. */
 typedef struct collection {
     const sb_sampler *sampler;
+    bool whole;           /* all slabs are sampled */
+    uint32_t first, last; /* slabs of static surfaces that are sampled */
     share *shares;        /* per source */
     sb_sample_set moving; /* particles of all moving surfaces */
 } collection;
 
-static int add(share *to, const sb_sample *one)
+static int add(const collection *all, const sb_sample *one)
 {
+    share *to = &all->shares[one->source];
+    if (!all->whole && sb_grow((void **)&to->slab, &to->slab_capacity, to->count + 1, sizeof *to->slab)) return -1;
     if (sb_grow((void **)&to->position, &to->position_capacity, to->count + 1, sizeof *to->position) ||
         sb_grow((void **)&to->normal, &to->normal_capacity, to->count + 1, sizeof *to->normal))
         return -1;
+    if (to->slab) to->slab[to->count] = one->slab;
     to->position[to->count] = one->at;
     to->normal[to->count++] = one->normal;
     return 0;
@@ -55,6 +62,7 @@ static void release(share *of)
 {
     sb_free(of->position);
     sb_free(of->normal);
+    sb_free(of->slab);
     *of = (share){.count = 0};
 }
 
@@ -67,7 +75,7 @@ static int keep(void *context, sb_sample *found, size_t count)
         if (belongs(&all->sampler->settings, found[i].at)) found[kept++] = found[i];
     sb_sample_round_edges(all->sampler, found, kept);
     for (size_t i = 0; i < kept; ++i)
-        if (sb_stop_signal() || add(&all->shares[found[i].source], &found[i])) return -1;
+        if (sb_stop_signal() || add(all, &found[i])) return -1;
     return 0;
 }
 
@@ -83,13 +91,13 @@ static int keep_moving(void *context, sb_sample *found, size_t count)
     return 0;
 }
 
-/* Samples the static surfaces together, then each moving surface alone. */
+/* Samples slabs of the static surfaces together, then each moving surface alone and whole. */
 static int sample_groups(sb_sampler *sampler, collection *all)
 {
     sampler->moving = false;
     sampler->first = 0;
     sampler->last = (uint32_t)sampler->surface_count;
-    int failed = sb_slabs_sample(sampler, 0, sampler->slabs.count, keep, all);
+    int failed = sb_slabs_sample(sampler, all->first, all->last, keep, all);
     sampler->moving = true;
     for (uint32_t i = 0; i < sampler->surface_count && !failed; ++i) {
         sampler->first = i;
@@ -100,14 +108,15 @@ static int sample_groups(sb_sampler *sampler, collection *all)
 }
 
 /* Joins the particles of all sources, one source after another, and frees them. */
-static int join(share *shares, size_t source_count, sb_samples *out)
+static int join(share *shares, size_t source_count, bool whole, sb_samples *out)
 {
     *out = (sb_samples){.source_count = source_count, .begin = sb_alloc(source_count + 1, sizeof *out->begin)};
     if (!out->begin) return -1;
     for (size_t s = 0; s < source_count; ++s) out->begin[s + 1] = out->count += shares[s].count;
     out->position = sb_alloc_untouched(out->count, sizeof *out->position);
     out->normal = sb_alloc_untouched(out->count, sizeof *out->normal);
-    if (!out->position || !out->normal) {
+    if (!whole) out->slab = sb_alloc_untouched(out->count, sizeof *out->slab);
+    if (!out->position || !out->normal || (!whole && !out->slab)) {
         sb_samples_free(out);
         return -1;
     }
@@ -115,29 +124,34 @@ static int join(share *shares, size_t source_count, sb_samples *out)
         if (shares[s].count == 0) continue;
         memcpy(out->position + out->begin[s], shares[s].position, shares[s].count * sizeof *out->position);
         memcpy(out->normal + out->begin[s], shares[s].normal, shares[s].count * sizeof *out->normal);
+        if (!whole) memcpy(out->slab + out->begin[s], shares[s].slab, shares[s].count * sizeof *out->slab);
         release(&shares[s]);
     }
     return 0;
 }
 
-sb_status sb_sample_surfaces(const sb_sample_settings *settings, const sb_sample_source *sources, size_t count,
-                             sb_samples *samples, sb_error *error)
+/* Samples the slabs [first, last) of static sources; whole: all of them. */
+static sb_status sample(const sb_sample_settings *settings, const sb_sample_source *sources, size_t count, bool whole,
+                        uint32_t first, uint32_t last, sb_samples *samples, sb_error *error)
 {
     sb_sampler sampler = {.settings = *settings};
     /* With cells of one spacing, a query searches at most 27 cells, because its radius is smaller than a spacing. */
     const sb_sample_set none = {.cell = settings->spacing, .origin = settings->min};
-    collection all = {.sampler = &sampler, .shares = sb_alloc(count, sizeof *all.shares), .moving = none};
+    collection all = {
+        .sampler = &sampler, .whole = whole, .shares = sb_alloc(count, sizeof *all.shares), .moving = none};
     sb_samples made = {0};
     sb_status status = SB_OK;
     sampler.set = none;
     sb_slabs_choose(settings, &sampler.slabs, &sampler.rows);
+    all.first = whole ? 0 : first;
+    all.last = whole ? sampler.slabs.count : last;
     sampler.surfaces = sb_alloc(count, sizeof *sampler.surfaces);
     if (!sampler.surfaces || !all.shares) status = sb_fail_memory(error, "the sampling of surfaces");
     for (size_t i = 0; i < count && status == SB_OK; ++i) {
         status = sb_surface_build(sources + i, settings, sampler.surfaces + i, error);
         sampler.surface_count += status == SB_OK;
     }
-    if (status == SB_OK && (sample_groups(&sampler, &all) || sb_stop_signal() || join(all.shares, count, &made)))
+    if (status == SB_OK && (sample_groups(&sampler, &all) || sb_stop_signal() || join(all.shares, count, whole, &made)))
         status = sb_fail_memory(error, "boundary particles");
     if (status == SB_OK) *samples = made;
     for (size_t i = 0; i < sampler.surface_count; ++i) sb_surface_free(sampler.surfaces + i);
@@ -146,4 +160,16 @@ sb_status sb_sample_surfaces(const sb_sample_settings *settings, const sb_sample
     sb_free(all.shares);
     sb_sample_set_free(&all.moving);
     return status;
+}
+
+sb_status sb_sample_surfaces(const sb_sample_settings *settings, const sb_sample_source *sources, size_t count,
+                             sb_samples *samples, sb_error *error)
+{
+    return sample(settings, sources, count, true, 0, 0, samples, error);
+}
+
+sb_status sb_sample_slabs(const sb_sample_settings *settings, const sb_sample_source *sources, size_t count,
+                          uint32_t first, uint32_t last, sb_samples *samples, sb_error *error)
+{
+    return sample(settings, sources, count, false, first, last, samples, error);
 }

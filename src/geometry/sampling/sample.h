@@ -32,6 +32,7 @@ typedef struct sb_samples {
     size_t *begin;     /* source_count + 1 */
     sb_vec3 *position; /* m, on the boundary surface */
     sb_vec3 *normal;   /* unit, towards the water */
+    uint32_t *slab;    /* of each; NULL: all slabs were sampled */
 } sb_samples;
 
 /* Samples all sources. Where sources meet, the earlier one has precedence. The result is the same for any number of
@@ -39,6 +40,19 @@ typedef struct sb_samples {
 sb_status sb_sample_surfaces(const sb_sample_settings *settings, const sb_sample_source *sources, size_t count,
                              sb_samples *samples, sb_error *error);
 void sb_samples_free(sb_samples *samples);
+
+/* The domain is cut into slabs of at least SB_SAMPLE_SLAB spacings, one after another along its longest axis, that of
+   sb_sample_axis. Cuts them into parts of about the same area of static surfaces: part k has the slabs [bounds[k],
+   bounds[k + 1]). bounds: parts
+   + 1, the last one is the number of slabs. SB_FAILED without memory. */
+#define SB_SAMPLE_SLAB 16.0
+int sb_sample_axis(sb_vec3 min, sb_vec3 max, int dimensions);
+sb_status sb_sample_divide(const sb_sample_settings *settings, const sb_sample_source *sources, size_t count,
+                           size_t parts, uint32_t *bounds, sb_error *error);
+/* The same as sb_sample_surfaces, but of static sources only the particles of the slabs [first, last), with the bits
+   and the order that they have among all. Moving sources are whole. */
+sb_status sb_sample_slabs(const sb_sample_settings *settings, const sb_sample_source *sources, size_t count,
+                          uint32_t first, uint32_t last, sb_samples *samples, sb_error *error);
 
 /* Cuts a mesh with the plane y = 0. The section consists of strips along y, from -half_width to half_width, with two
    triangles per piece of the curve. If the plane does not cut the mesh, the section has no triangles. */

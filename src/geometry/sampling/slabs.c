@@ -12,7 +12,7 @@
 
 /* In spacings: width of a slab, length of a row of it, and distance of the first border from the domain's side less one
    width. The latter is no round number, so that no face of a usual scene lies in a border. */
-static const double WIDTH = 16, LENGTH = 256, SHIFT = 1.888;
+static const double WIDTH = SB_SAMPLE_SLAB, LENGTH = 256, SHIFT = 1.888;
 
 /* A stage of the turn `turn` is that of slab 2 turn - behind. Before it, the slabs beside this one have passed the
    stages that it needs, and no others. */
@@ -33,11 +33,18 @@ static sb_slabs across(const sb_sample_settings *settings, int axis, double widt
                                                        : UINT32_MAX / 4};
 }
 
+int sb_sample_axis(sb_vec3 min, sb_vec3 max, int dimensions)
+{
+    const sb_vec3 size = sb_sub(max, min);
+    const bool flat = dimensions == 2;
+    return size.x >= size.z && (flat || size.x >= size.y) ? 0 : flat || size.z > size.y ? 2 : 1;
+}
+
 void sb_slabs_choose(const sb_sample_settings *settings, sb_slabs *slabs, sb_slabs *rows)
 {
     const sb_vec3 size = sb_sub(settings->max, settings->min);
     const bool flat = settings->dimensions == 2;
-    const int axis = size.x >= size.z && (flat || size.x >= size.y) ? 0 : flat || size.z > size.y ? 2 : 1;
+    const int axis = sb_sample_axis(settings->min, settings->max, settings->dimensions);
     const int next = (axis + 1) % 3, last = (axis + 2) % 3;
     const bool first_wider = sb_sample_along(size, next) >= sb_sample_along(size, last);
     const int beside = flat ? 2 - axis : first_wider ? next : last;
@@ -68,11 +75,21 @@ static int visit_slab(const sb_sample_set *set, uint32_t slab, sb_slab_visit *vi
     return failed;
 }
 
+/* Whether slabs in [first, last) depend on a stage of a slab. What a slab sees beside it has passed earlier stages
+ * only.
+ */
+static bool is_needed(uint32_t slab, int stage, uint32_t first, uint32_t last)
+{
+    const uint32_t beyond = slab < first ? first - slab : slab >= last ? slab - last + 1 : 0;
+    return (uint32_t)stage + beyond <= BEHIND;
+}
+
 /* One turn: each stage of one slab. Two slabs are final after it. */
 static int turn(sb_sampler *sampler, uint32_t now, uint32_t first, uint32_t last, sb_slab_visit *visit, void *context)
 {
     for (int s = 0; s < STAGES; ++s) {
         if (2 * now < stages[s].behind || 2 * now - stages[s].behind >= sampler->slabs.count) continue;
+        if (!is_needed(2 * now - stages[s].behind, s, first, last)) continue;
         enter(sampler, 2 * now - stages[s].behind);
         if (sb_stop_signal() || stages[s].sample(sampler)) return -1;
     }

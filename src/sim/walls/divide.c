@@ -1,8 +1,14 @@
 /* Static boundary particles of one of several ranks: those that the particles of its domain may meet. Each rank keeps a
-   share of all of them in the order of their keys. What a rank receives from the shares, one rank after another, is in
-   this order, too, so that each cell has the content that it has in one rank. */
+   share of all of them, from which the ranks supply each other, so that each cell has the content and the order that it
+   has in one rank.
+
+   If the model has them all, the shares are parts of their order by keys, and what a rank receives, one rank after
+   another, is in this order. If the model has those of some slabs, that is the share. What a rank then receives of a
+   body is in the order of one rank, in which a cell has one body after another, and then the images beyond periodic
+   sides, in the order of their originals. */
 #include "base/memory.h"
 #include "sim/exchange/domains.h"
+#include "sim/search/sort.h"
 #include "sim/walls/walls.h"
 
 #include <string.h>
@@ -38,19 +44,44 @@ static int allocate(sb_record **record, uint32_t **body, sb_f4 **normal, size_t 
     return *record && *body && *normal ? 0 : -1;
 }
 
-int sb_walls_share(sb_sim *sim)
+/* Takes an equal share of a set that has all boundary particles. */
+static void take_equal(const sb_sim *sim, const sb_wall_set *set, sb_wall_share *share)
 {
-    const sb_wall_set *set = &sim->walls.set[SB_STATIC];
-    sb_wall_share *share = &sim->walls.share;
-    if (!sim->domains || sim->needs.foam || sim->needs.dynamic_walls) return 0;
-    const size_t ranks = (size_t)sim->ranks->count, own = (size_t)sim->ranks->rank;
-    const size_t from = set->count * own / ranks;
-    share->count = set->count * (own + 1) / ranks - from;
-    share->cut = sb_alloc(ranks + 1, sizeof *share->cut); /* of no domains */
-    if (!share->cut || allocate(&share->record, &share->body, &share->normal, share->count) != 0) return -1;
+    const size_t from = set->count * (size_t)sim->ranks->rank / (size_t)sim->ranks->count;
     memcpy(share->record, set->record + from, share->count * sizeof *share->record);
     memcpy(share->body, set->body + from, share->count * sizeof *share->body);
     memcpy(share->normal, set->normal + from, share->count * sizeof *share->normal);
+}
+
+/* Takes what is not marked, and takes the marks away. */
+static void take_own(sb_wall_set *set, sb_wall_share *share)
+{
+    size_t at = 0;
+    for (size_t i = 0; i < set->count; i++) {
+        if (!(set->body[i] & SB_WALL_MARK)) {
+            share->record[at] = set->record[i];
+            share->body[at] = set->body[i];
+            share->normal[at++] = set->normal[i];
+        }
+        set->body[i] &= ~(SB_WALL_MARK | SB_WALL_IMAGE);
+    }
+}
+
+int sb_walls_share(sb_sim *sim)
+{
+    sb_wall_set *set = &sim->walls.set[SB_STATIC];
+    sb_wall_share *share = &sim->walls.share;
+    if (!sim->domains || sim->needs.foam || sim->needs.dynamic_walls) return 0;
+    const size_t ranks = (size_t)sim->ranks->count, own = (size_t)sim->ranks->rank;
+    const bool divided = sim->model->walls.divided;
+    if (!divided) share->count = set->count * (own + 1) / ranks - set->count * own / ranks;
+    for (size_t i = 0; i < set->count && divided; i++) share->count += !(set->body[i] & SB_WALL_MARK);
+    share->cut = sb_alloc(ranks + 1, sizeof *share->cut); /* of no domains */
+    if (!share->cut || allocate(&share->record, &share->body, &share->normal, share->count) != 0) return -1;
+    if (divided)
+        take_own(set, share);
+    else
+        take_equal(sim, set, share);
     return 0;
 }
 
@@ -113,19 +144,75 @@ static void travel(sb_sim *sim, delivery *v)
     sb_ranks_finish(d->ranks);
 }
 
+typedef uint64_t sort_key(const sb_sim *sim, const passenger *one);
+
+static uint64_t body_of(const sb_sim *sim, const passenger *one)
+{
+    (void)sim;
+    return one->body & ~SB_WALL_IMAGE;
+}
+
+static uint64_t original_of(const sb_sim *sim, const passenger *one)
+{
+    return one->body & SB_WALL_IMAGE ? sb_space_key(&sim->space, sb_space_wrap(&sim->space, one->record)) : 0;
+}
+
+static uint64_t is_image(const sb_sim *sim, const passenger *one)
+{
+    (void)sim;
+    return one->body & SB_WALL_IMAGE ? 1 : 0;
+}
+
+/* Sorts those that have arrived by a key of so many bits, stably. Returns 0, or -1 without memory. */
+static int sort_arrived(const sb_sim *sim, sort_key *key, int bits, delivery *v)
+{
+    const size_t n = v->arrived;
+    uint64_t *words = sb_alloc_untouched(n, sizeof *words), *other = sb_alloc_untouched(n, sizeof *words);
+    passenger *sorted = sb_alloc_untouched(n, sizeof *sorted);
+    for (size_t i = 0; words && i < n; i++) words[i] = sb_sort_word(key(sim, &v->in[i]), i);
+    const uint64_t *order =
+        words && other && sorted ? sb_sort(words, other, n, SB_INDEX_BITS, SB_INDEX_BITS + bits) : NULL;
+    for (size_t i = 0; order && i < n; i++) sorted[i] = v->in[sb_word_index(order[i])];
+    const int status = order ? 0 : -1;
+    if (order) {
+        sb_free(v->in);
+        v->in = sorted;
+        sorted = NULL;
+    }
+    sb_free(sorted);
+    sb_free(words);
+    sb_free(other);
+    return status;
+}
+
+/* Puts those of a cell into the order of one rank, after which they are sorted by cells. Returns 0, or -1 without
+   memory. */
+static int sort_cells(const sb_sim *sim, delivery *v)
+{
+    int bits = 1;
+    while (sim->model->body_count >> bits) bits++;
+    if (sort_arrived(sim, body_of, bits, v) != 0) return -1;
+    if (!sim->space.repeats) return 0;
+    return sort_arrived(sim, original_of, sim->space.key_bits, v) != 0 || sort_arrived(sim, is_image, 1, v) != 0 ? -1
+                                                                                                                 : 0;
+}
+
 /* Makes the static set of those that have arrived. Returns 0, or -1 without memory. */
 static int settle_in(sb_sim *sim, delivery *v)
 {
     sb_wall_set *set = &v->set, *old = &sim->walls.set[SB_STATIC];
+    const bool by_slabs = sim->model->walls.divided;
+    if (by_slabs && sort_cells(sim, v) != 0) return -1;
     set->count = v->arrived;
     for (size_t i = 0; i < set->count; i++) {
         set->record[i] = v->in[i].record;
-        set->body[i] = v->in[i].body;
+        set->body[i] = v->in[i].body & ~SB_WALL_IMAGE;
         set->normal[i] = v->in[i].normal;
     }
-    if (sb_cells_build(&set->cells, set->record, set->count, sim->space.shift) != 0 ||
-        sb_walls_near_build(set, &sim->space) != 0)
+    if (by_slabs ? sb_walls_table(set, &sim->space) != 0
+                 : sb_cells_build(&set->cells, set->record, set->count, sim->space.shift) != 0)
         return -1;
+    if (sb_walls_near_build(set, &sim->space) != 0) return -1;
     const sb_wall_set made = *set;
     *set = *old;
     *old = made;

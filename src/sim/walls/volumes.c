@@ -78,7 +78,7 @@ static int lengthen(void **array, size_t count, size_t capacity, size_t size)
     return 0;
 }
 
-int sb_wall_images(sb_wall_set *set, const sb_space *space)
+int sb_wall_images(sb_wall_set *set, const sb_space *space, uint32_t mark)
 {
     sb_record image[SB_IMAGES_MAX];
     const size_t own = set->count;
@@ -94,7 +94,7 @@ int sb_wall_images(sb_wall_set *set, const sb_space *space)
         for (int k = 0; k < images; k++) {
             set->record[set->count] = image[k];
             if (set->number) set->number[set->count] = set->number[i] | SB_BOUNDARY_IMAGE;
-            set->body[set->count] = set->body[i];
+            set->body[set->count] = set->body[i] | mark;
             set->normal[set->count++] = set->normal[i];
         }
     }

@@ -66,8 +66,7 @@ int sb_walls_near_build(sb_wall_set *set, const sb_space *space)
 
 /* ---- tables ---- */
 
-/* Sorts set->record and set->body along the Z-curve and builds the cells. */
-static int table_build(sb_wall_set *set, const sb_space *space)
+int sb_walls_table(sb_wall_set *set, const sb_space *space)
 {
     size_t n = set->count;
     uint64_t *words = sb_alloc_untouched(n, sizeof *words), *other = sb_alloc_untouched(n, sizeof *words);
@@ -110,6 +109,17 @@ static bool on_grid(const sb_space *space, sb_record record)
     return true;
 }
 
+/* Whether a set has a boundary particle of the model. Guests are near no particle of a rank's share. */
+static bool takes(const sb_model *model, size_t particle, bool moving)
+{
+    return moving || !model->walls.divided || model->walls.of[particle] != SB_WALL_GUEST;
+}
+
+static bool is_marked(const sb_model *model, size_t particle, bool moving)
+{
+    return !moving && model->walls.divided && model->walls.of[particle] != SB_WALL_OWN;
+}
+
 /* Copies the boundary particles of the static or the moving bodies into a set. Boundary particles off the grid are left
    out: they are more than two cells outside of the domain and meet no water, and keys are unique only on the grid. */
 static int copy_set(sb_sim *sim, bool moving, sb_wall_set *set)
@@ -127,13 +137,13 @@ static int copy_set(sb_sim *sim, bool moving, sb_wall_set *set)
         if ((body->wavemaker >= 0) != moving) continue;
         for (size_t i = body->begin; i < body->begin + body->count; i++) {
             sb_record record = sb_space_record(&sim->space, model->wall_position[i]);
-            if (!on_grid(&sim->space, record)) continue;
+            if (!on_grid(&sim->space, record) || !takes(model, i, moving)) continue;
             set->record[at] = record;
             if (model->wall_normal) {
                 sb_vec3 normal = model->wall_normal[i];
                 set->normal[at] = (sb_f4){(float)normal.x, (float)normal.y, (float)normal.z, 0};
             }
-            set->body[at++] = (uint32_t)b;
+            set->body[at++] = (uint32_t)b | (is_marked(model, i, moving) ? SB_WALL_MARK : 0);
         }
     }
     set->count = at;
@@ -172,10 +182,12 @@ sb_status sb_walls_create(sb_sim *sim, sb_error *error)
                        1 << SB_INDEX_BITS);
     for (int s = 0; s < SB_WALL_SETS; s++) {
         sb_wall_set *set = &sim->walls.set[s];
-        if (copy_set(sim, s == SB_MOVING, set) != 0 || table_build(set, &sim->space) != 0 ||
+        if (copy_set(sim, s == SB_MOVING, set) != 0 || sb_walls_table(set, &sim->space) != 0 ||
             sb_wall_volumes(sim, set, s == SB_MOVING) != 0)
             return sb_fail_memory(error, "boundary particles");
-        if (sim->space.repeats && (sb_wall_images(set, &sim->space) != 0 || table_build(set, &sim->space) != 0))
+        const uint32_t mark = s == SB_STATIC && sim->model->walls.divided ? SB_WALL_IMAGE : 0;
+        if (sim->space.repeats &&
+            (sb_wall_images(set, &sim->space, mark) != 0 || sb_walls_table(set, &sim->space) != 0))
             return sb_fail_memory(error, "images of boundary particles");
         if (sb_walls_near_build(set, &sim->space) != 0) return sb_fail_memory(error, "boundary particles");
     }
@@ -295,7 +307,7 @@ sb_status sb_walls_restore(sb_sim *sim, sb_error *error)
 {
     if (sim->walls.moving_count == 0) return SB_OK;
     place(sim);
-    if (table_build(&sim->walls.set[SB_MOVING], &sim->space) != 0 ||
+    if (sb_walls_table(&sim->walls.set[SB_MOVING], &sim->space) != 0 ||
         sb_walls_near_build(&sim->walls.set[SB_MOVING], &sim->space) != 0)
         return sb_fail_memory(error, "moving boundary particles");
     return SB_OK;

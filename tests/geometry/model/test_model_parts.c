@@ -1,6 +1,7 @@
 /* Models of several ranks: each has a part of the fluid particles, which together are those of a model of one rank, bit
-   for bit. All else is the same in all of them: warnings, hash, walls, and what is known of all particles. */
-#include "small_model.h"
+   for bit. All else but the walls (test_model_walls.c) is the same in all of them: warnings, hash, and what is known of
+   all particles. */
+#include "team.h"
 
 #include "base/hash.h"
 #include "check.h"
@@ -34,15 +35,16 @@ static void check_rest(const sb_model *part)
 static void check_ranks(int ranks)
 {
     size_t at = 0;
+    team t = {.ranks = ranks};
+    team_build(&t);
     for (int r = 0; r < ranks; r++) {
-        sb_model part = {0};
-        assert_int_equal(sb_model_build_part(&scene, NULL, r, ranks, &part, &error), SB_OK);
-        assert_true(part.part.divided);
-        check_part(&part, at);
-        check_rest(&part);
-        at += sb_model_fluid_here(&part);
-        sb_model_free(&part);
+        assert_int_equal(t.status[r], SB_OK);
+        assert_true(t.part[r].part.divided);
+        check_part(&t.part[r], at);
+        check_rest(&t.part[r]);
+        at += sb_model_fluid_here(&t.part[r]);
     }
+    team_free(&t);
     assert_int_equal(at, model.fluid_count);
 }
 
@@ -94,13 +96,14 @@ static void several_waters_are_placed_whole(void **state)
     scene.boxes = &box;
     scene.box_count = 1;
     build();
-    sb_model part = {0};
+    team t = {.ranks = 3};
     assert_false(sb_model_divides(&scene));
-    assert_int_equal(sb_model_build_part(&scene, NULL, 1, 3, &part, &error), SB_OK);
-    assert_false(part.part.divided);
-    check_part(&part, 0);
-    check_rest(&part);
-    sb_model_free(&part);
+    team_build(&t);
+    assert_int_equal(t.status[1], SB_OK);
+    assert_false(t.part[1].part.divided);
+    check_part(&t.part[1], 0);
+    check_rest(&t.part[1]);
+    team_free(&t);
 }
 
 /* Words that are added in pieces have the hash that they have at once. */

@@ -1,5 +1,6 @@
 #include "sim/exchange/ranks_case.h"
 
+#include "base/agree.h"
 #include "base/memory.h"
 #include "check.h"
 #include "scene/scene.h"
@@ -112,9 +113,11 @@ static void run(sb_ranks *ranks, void *context)
     const int steps = j->way->steps > 0 ? j->way->steps : j->what->steps;
     sb_model part = {.dimensions = 0};
     const bool divided = j->way->divided;
-    if (divided && sb_model_build_part(&j->made->scene, NULL, ranks->rank, ranks->count, &part, &end->error) != SB_OK)
-        abort();                                                    /* the others would wait */
-    if (divided && ranks->count > 1 && !part.part.divided) abort(); /* the case would show nothing */
+    const sb_model_team team = {.ranks = ranks, .agree = sb_ranks_agree};
+    if (divided && sb_model_build_part(&j->made->scene, NULL, &team, &part, &end->error) != SB_OK)
+        abort(); /* the others would wait */
+    if (divided && ranks->count > 1 && !part.part.divided && !part.walls.divided)
+        abort(); /* the case would show nothing */
     sb_status status = sb_sim_create(&j->made->scene, divided ? &part : &j->made->model, ranks, &sim, &end->error);
     sb_model_free_start(&part);
     if (status == SB_OK) status = begin(j, sim, &end->error);

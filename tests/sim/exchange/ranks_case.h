@@ -17,6 +17,7 @@ typedef struct ranks_case {
     const char *set[RANKS_KEYS_MAX];
     unsigned has;   /* flags */
     bool disturbed; /* it is also run with delayed messages and two threads per rank */
+    bool divided;   /* each rank has a model of its own, with its part of the boundary particles */
 } ranks_case;
 
 /* ranks_cases.c: the first scene, one whose only water is a sea that moves at the start, and one for each kind of

@@ -105,7 +105,7 @@ static void any_number_of_ranks(void **state)
     check_case(&ranks_column, ways, sizeof ways / sizeof *ways);
 }
 
-/* Each rank places a part of the water: with its own model, none has all particles. */
+/* Each rank places a part of the water and samples a part of the walls: with its own model, none has all particles. */
 static void each_rank_places_a_part(void **state)
 {
     (void)state;
@@ -129,7 +129,8 @@ static void each_kind_of_scene(void **state)
     for (int k = 0; ranks_cases[k].name; k++) {
         const ranks_case *c = &ranks_cases[k];
         const int ranks = 2 + k % 3;
-        const ranks_way ways[] = {{.ranks = ranks, .threads = 1}, {.ranks = ranks, .threads = 2, .disturb = 3}};
+        const ranks_way ways[] = {{.ranks = ranks, .threads = 1, .divided = c->divided},
+                                  {.ranks = ranks, .threads = 2, .disturb = 3, .divided = c->divided}};
         if (!only || strstr(c->name, only)) check_case(c, ways, c->disturbed ? 2 : 1);
     }
 }
