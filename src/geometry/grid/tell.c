@@ -82,9 +82,9 @@ static void tell_ground(const sb_body *body, const sb_terrain *ground, lines *to
     const double sign = body->positive == SB_POSITIVE_DOWN ? -1 : 1;
     double least = (double)INFINITY, most = -(double)INFINITY;
     for (size_t n = 0; n < nodes; ++n) {
-        if (isnan(grid->heights[n])) continue;
-        least = fmin(least, sign * grid->heights[n]);
-        most = fmax(most, sign * grid->heights[n]);
+        const double height = sign * grid->heights[n]; /* NAN is neither */
+        least = height < least ? height : least;
+        most = height > most ? height : most;
     }
     const double first[2] = {grid->x + body->origin[0], grid->y + body->origin[1]};
     const double last[2] = {first[0] + grid->dx * (double)(grid->columns - 1),
