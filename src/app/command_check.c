@@ -1,4 +1,5 @@
 #include "app/check_tension.h"
+#include "app/check_terrain.h"
 #include "app/check_waves.h"
 #include "app/commands.h"
 #include "app/fit.h"
@@ -119,18 +120,10 @@ static void report_sea(const sb_model *model, int side)
            sb_side_names[side], sea->along, sea->along == 1 ? "" : "s", sea->strip, sea->width - sea->strip, low, high);
 }
 
-/* Prints the lines that describe each terrain from files. */
-static void report_terrain(const sb_model *model)
+/* Whether the nested grid has terrain beside that of the bodies. */
+static bool own_bed(const sb_scene *scene)
 {
-    for (size_t b = 0; b < model->body_count; b++) {
-        const char *line = model->bodies[b].mesh.told;
-        if (!line) continue;
-        printf("  terrain \"%s\"\n", model->bodies[b].name);
-        for (size_t length; *line; line += length + (line[length] == '\n')) {
-            length = strcspn(line, "\n");
-            printf("    %.*s\n", (int)length, line);
-        }
-    }
+    return sb_scene_nested(scene) && scene->offshore.terrain_count > 0;
 }
 
 static void report_text(const sb_scene *scene, const sb_model *model, const estimate *e)
@@ -157,7 +150,8 @@ static void report_text(const sb_scene *scene, const sb_model *model, const esti
     printf("  run time           about %.0f s on %d thread%s%s\n", e->seconds, threads, threads == 1 ? "" : "s",
            e->settling > 0 ? ", including settling" : "");
     printf("  disk               about %.0f MB\n", e->disk / 1e6);
-    report_terrain(model);
+    sb_check_terrain_text(model);
+    if (own_bed(scene)) sb_check_bed_text(scene, &model->grid.told);
     visit_warnings(scene, model, print_line, NULL);
 }
 
@@ -200,6 +194,7 @@ static void report_json(const sb_scene *scene, const sb_model *model, const esti
         sb_json_close(&json);
     }
     sb_json_close(&json);
+    if (own_bed(scene)) sb_check_bed_json(&model->grid.told, &json);
     sb_json_open(&json, "warnings", '[');
     visit_warnings(scene, model, print_json, &json);
     sb_json_close(&json);

@@ -1,5 +1,6 @@
 #include "app/grid_report.h"
 
+#include "app/check_terrain.h"
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
@@ -102,7 +103,8 @@ static void print_json(void *context, const char *text)
     sb_json_text(context, NULL, text);
 }
 
-static void report_text(const sb_scene *scene, const sb_grid_facts *f, double steps, double seconds)
+static void report_text(const sb_scene *scene, const sb_grid_facts *f, const sb_grid_cost *cost,
+                        const sb_offshore_told_list *told)
 {
     const int threads = omp_get_max_threads();
     printf("%s\n", scene->title);
@@ -110,12 +112,14 @@ static void report_text(const sb_scene *scene, const sb_grid_facts *f, double st
     printf("  equations          %s\n", scene->offshore.dispersion ? "Serre-Green-Naghdi" : "shallow water");
     printf("  greatest depth     %g m\n", f->deepest);
     printf("  memory             about %.*f MB\n", f->bytes < 1e7 ? 1 : 0, f->bytes / 1e6);
-    printf("  steps              about %.0f of %.3g s\n", steps, f->time_step);
-    printf("  run time           about %.3g s on %d thread%s\n", seconds, threads, threads == 1 ? "" : "s");
+    printf("  steps              about %.0f of %.3g s\n", cost->steps, f->time_step);
+    printf("  run time           about %.3g s on %d thread%s\n", cost->seconds, threads, threads == 1 ? "" : "s");
+    sb_check_bed_text(scene, told);
     sb_grid_water_warnings(scene, f, print_line, NULL);
 }
 
-static void report_json(const sb_scene *scene, const sb_grid_facts *f, double steps, double seconds)
+static void report_json(const sb_scene *scene, const sb_grid_facts *f, const sb_grid_cost *cost,
+                        const sb_offshore_told_list *told)
 {
     sb_json json;
     sb_json_begin(&json, stdout, true);
@@ -129,9 +133,10 @@ static void report_json(const sb_scene *scene, const sb_grid_facts *f, double st
     sb_json_count(&json, "wet_cells", f->wet);
     sb_json_number(&json, "greatest_depth_m", f->deepest);
     sb_json_number(&json, "memory_bytes", f->bytes);
-    sb_json_number(&json, "steps", steps);
+    sb_json_number(&json, "steps", cost->steps);
     sb_json_number(&json, "time_step_s", f->time_step);
-    sb_json_number(&json, "run_time_s", seconds);
+    sb_json_number(&json, "run_time_s", cost->seconds);
+    sb_check_bed_json(told, &json);
     sb_json_open(&json, "warnings", '[');
     sb_grid_water_warnings(scene, f, print_json, &json);
     sb_json_close(&json);
@@ -143,10 +148,12 @@ sb_status sb_grid_check(const sb_scene *scene, bool json, sb_error *error)
 {
     sb_offshore *water = NULL;
     sb_grid_facts facts = {0};
-    const sb_status status = sb_grid_water_create(scene, &water, &facts, error);
+    sb_offshore_told_list told = {0};
+    const sb_status status = sb_grid_water_create(scene, &water, &facts, &told, error);
     if (status != SB_OK) return status;
     const sb_grid_cost cost = sb_grid_find_cost(scene, water, scene->duration);
-    (json ? report_json : report_text)(scene, &facts, cost.steps, cost.seconds);
+    (json ? report_json : report_text)(scene, &facts, &cost, &told);
+    sb_offshore_told_free(&told);
     sb_offshore_destroy(water);
     return SB_OK;
 }

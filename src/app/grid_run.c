@@ -63,7 +63,7 @@ static sb_status start(grid_run *g, const sb_run_options *options, sb_error *err
 {
     run *r = &g->r;
     sb_status status = open_directory(r, options, error);
-    if (status == SB_OK) status = sb_grid_water_create(r->scene, &g->water, &g->facts, error);
+    if (status == SB_OK) status = sb_grid_water_create(r->scene, &g->water, &g->facts, NULL, error);
     if (status == SB_OK) status = take_directory(r, error);
     if (status != SB_OK) return status;
     sb_team_warnings(warn, r);

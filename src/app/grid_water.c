@@ -15,13 +15,14 @@ sb_status sb_grid_refuse(const sb_scene *scene, const char *command, sb_error *e
                    scene->path, command);
 }
 
-sb_status sb_grid_water_create(const sb_scene *scene, sb_offshore **water, sb_grid_facts *facts, sb_error *error)
+sb_status sb_grid_water_create(const sb_scene *scene, sb_offshore **water, sb_grid_facts *facts,
+                               sb_offshore_told_list *told, sb_error *error)
 {
     sb_offshore_start start = {0};
     sb_offshore *made = NULL;
     sb_status status = sb_grid_start_fill(scene, &start, error);
     if (status == SB_OK) status = sb_offshore_begin(scene, &start, &made, error);
-    if (status == SB_OK && facts)
+    if (status == SB_OK)
         *facts = (sb_grid_facts){.columns = start.columns,
                                  .rows = start.rows,
                                  .wet = start.wet,
@@ -29,6 +30,10 @@ sb_status sb_grid_water_create(const sb_scene *scene, sb_offshore **water, sb_gr
                                  .deepest = start.deepest,
                                  .time_step = sb_offshore_time_step(made),
                                  .bytes = sb_grid_bytes(scene)};
+    if (status == SB_OK && told) {
+        *told = start.told;
+        start.told = (sb_offshore_told_list){0};
+    }
     sb_offshore_start_free(&start);
     if (status == SB_OK) *water = made;
     return status;

@@ -4,7 +4,7 @@
 
 #include "app/run.h"
 #include "app/warnings.h"
-#include "offshore/offshore.h"
+#include "offshore/start.h"
 
 /* What check and the log tell about the model before the first step. */
 typedef struct sb_grid_facts {
@@ -12,9 +12,10 @@ typedef struct sb_grid_facts {
     double deepest, time_step, bytes;     /* m, s, bytes */
 } sb_grid_facts;
 
-/* Makes the model of a scene at t = 0. *facts may be NULL. SB_BAD_INPUT also when there is no water, SB_FAILED when it
-   does not fit into memory. */
-sb_status sb_grid_water_create(const sb_scene *scene, sb_offshore **water, sb_grid_facts *facts, sb_error *error);
+/* Makes the model of a scene at t = 0. *told: what the grids of its bed state, freed by the caller; NULL: not wanted.
+   SB_BAD_INPUT also when there is no water, SB_FAILED when it does not fit into memory. */
+sb_status sb_grid_water_create(const sb_scene *scene, sb_offshore **water, sb_grid_facts *facts,
+                               sb_offshore_told_list *told, sb_error *error);
 
 /* Settings of the scene that have no effect here, and doubtful ones. */
 void sb_grid_water_warnings(const sb_scene *scene, const sb_grid_facts *facts, sb_warning_visit *visit, void *context);

@@ -6,12 +6,21 @@
 
 #include <math.h>
 
+void sb_offshore_told_free(sb_offshore_told_list *told)
+{
+    if (!told) return;
+    for (size_t i = 0; i < told->count; i++) sb_free(told->items[i].text);
+    sb_free(told->items);
+    *told = (sb_offshore_told_list){0};
+}
+
 void sb_offshore_start_free(sb_offshore_start *start)
 {
     if (!start) return;
     sb_free(start->bed);
     sb_free(start->depth);
     sb_free(start->hu);
+    sb_offshore_told_free(&start->told);
     *start = (sb_offshore_start){0};
 }
 

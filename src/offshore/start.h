@@ -5,6 +5,20 @@
 #include "offshore/offshore.h"
 #include "scene/scene.h"
 
+/* What `check` tells of a grid that is part of the bed. */
+typedef struct sb_offshore_told {
+    char name[SB_NAME_MAX]; /* offshore.terrain[0], or that of a body */
+    char *text;             /* lines */
+} sb_offshore_told;
+
+/* Owns its items; zero is an empty list. */
+typedef struct sb_offshore_told_list {
+    size_t count;
+    sb_offshore_told *items;
+} sb_offshore_told_list;
+
+void sb_offshore_told_free(sb_offshore_told_list *told);
+
 /* Values of columns x rows cells, [row * columns + column]. Owns its arrays; zero is an empty one. */
 typedef struct sb_offshore_start {
     size_t columns, rows;
@@ -13,6 +27,7 @@ typedef struct sb_offshore_start {
     double highest;           /* m, z of the highest surface */
     double fastest;           /* m/s, the highest speed */
     double *bed, *depth, *hu; /* m, m, m^2/s */
+    sb_offshore_told_list told;
 } sb_offshore_start;
 
 void sb_offshore_start_free(sb_offshore_start *start);

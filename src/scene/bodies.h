@@ -30,7 +30,8 @@ typedef enum sb_positive {
 
 typedef enum sb_voids {
     SB_VOIDS_KEEP, /* missing heights are holes in the ground */
-    SB_VOIDS_FILL  /* they are interpolated from the heights around them */
+    SB_VOIDS_FILL, /* they are interpolated from the heights around them */
+    SB_VOIDS_SHOW  /* holes that show an earlier grid; of offshore.terrain only, no key gives it */
 } sb_voids;
 
 /* One file of a stack of grids. */

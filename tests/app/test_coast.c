@@ -173,9 +173,74 @@ static void a_survey_is_the_bed_of_a_grid(void **state)
     outcome o = program_run((const char *const[]){"check", "bed.yaml", NULL});
     if (o.status != 0) fail_msg("%s", o.err);
     assert_contains(o.out, "8 x 8 of 10 m, 64 wet");
+    assert_contains(o.out, "read at the centres of cells of 10 m, linear between the nodes of offshore.terrain");
+    assert_contains(o.out,
+                    "  offshore.terrain[0]\n    sea.asc: no coordinate system, taken as metres; 3 x 3 nodes, "
+                    "100 x 100 m; from (-100, -100) to (200, 200) m; vertical datum: none stated\n"
+                    "    ground: metres as in the file; 3 x 3 nodes of 100 x 100 m; from (-50, -50) to (150, "
+                    "150) m; heights -9 to -9 m; no voids\n"
+                    "  offshore.terrain[1]\n    survey.tif: EPSG:32654; 60 x 50 nodes, 5 x 5 m; from (546897.5, "
+                    "4249897.5) to (547197.5, 4250147.5) m; vertical datum: EPSG:5773\n    ground: EPSG:32654; ");
+    /* The 21 nodes within 12 m of the void's middle. */
+    assert_contains(o.out, "; 21 voids (0.7 %), left to the grids before it; moved by (-547000, -4250000, 0) m\n");
     outcome_free(&o);
     o = program_run((const char *const[]){"check", "bed.yaml", "--set", "offshore.level=-5", NULL});
     assert_contains(o.out, "8 x 8 of 10 m, 24 wet"); /* the beach is below -5 m where x < 10 */
+    outcome_free(&o);
+}
+
+/* A file in degrees is the bed in metres of its UTM zone. It rises by 200 m per degree towards the east and is 5 m deep
+   at 141.5357 degrees, which are 546779.841 m of easting in the middle of the domain, at a northing of 4249770 m, where
+   a degree has 87324 m (Krueger's series on WGS 84). */
+static void degrees_are_the_bed_of_a_grid(void **state)
+{
+    (void)state;
+    const grid_sample sample = {.columns = 60,
+                                .rows = 60,
+                                .x = 141.53,
+                                .y = 38.39,
+                                .dx = 0.0002,
+                                .dy = 0.0002,
+                                .height = degrees,
+                                .geographic = true,
+                                .northward = true,
+                                .tile = 1,
+                                .standard_name = "height_above_mean_sea_level"};
+    grid_sample_netcdf(&sample, in_folder("gebco.nc"));
+    write_text("degrees-bed.yaml",
+               "title: Bed\nduration: 1\ndomain: {min: [0, 0, -20], max: [100, 40, 10]}\n"
+               "offshore: {cell: 10, level: -5, terrain: [{file: gebco.nc, shift: [-546730, -4249750]}]}\n"
+               "output: {plots: false, particle_interval: 0}\n");
+    outcome o = program_run((const char *const[]){"check", "degrees-bed.yaml", NULL});
+    if (o.status != 0) fail_msg("%s", o.err);
+    assert_contains(o.out, "10 x 4 of 10 m, 20 wet");
+    assert_contains(o.out, "gebco.nc: EPSG:4326, projected; 60 x 60 nodes, 0.0002 x 0.0002 degrees (17.47 m)");
+    assert_contains(o.out, "vertical datum: height_above_mean_sea_level");
+    assert_contains(o.out, "ground: EPSG:32654, the UTM zone of the finest file");
+    outcome_free(&o);
+    o = program_run((const char *const[]){"run", "degrees-bed.yaml", "--out", "degrees-bed", NULL});
+    if (o.status != 0) fail_msg("%s", o.err);
+    outcome_free(&o);
+    /* The five wet columns have the depths d, d - 10 s, ... with d at x = 5 m and the slope s. 0.2 m3 are 0.04 m of
+       easting. */
+    const double slope = 200 / 87324., first = slope * (49.841 - 5);
+    assert_near(json_number_of("degrees-bed/summary.json", "start_m3"), 10 * 40 * 5 * (first - 20 * slope), 0.2);
+    assert_true(exists("degrees-bed/maps/max_depth.asc"));
+}
+
+/* A text grid as a body, with keys that change its places and heights. */
+static void a_text_grid_is_told(void **state)
+{
+    (void)state;
+    write_text("sea.asc", "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 50\n5 5 5\n-9999 5 5\n5 5 4\n");
+    write_coast("text.yaml", "file: sea.asc, positive: down, datum: -0.5, translate: [-25, -25, 0]");
+    outcome o = program_run((const char *const[]){"check", "text.yaml", NULL});
+    if (o.status != 0) fail_msg("%s", o.err);
+    assert_contains(
+        o.out, "  terrain \"coast\"\n    sea.asc: no coordinate system, taken as metres; 3 x 3 nodes, 50 x 50 m; "
+               "from (0, 0) to (150, 150) m; vertical datum: none stated\n    ground: metres as in the file; 3 x 3 "
+               "nodes of 50 x 50 m; from (25, 25) to (125, 125) m; heights -5.5 to -4.5 m, of which datum -0.5 m; "
+               "1 voids (11.1 %), kept as holes; `voids: fill` fills them; moved by (-25, -25, 0) m\n");
     outcome_free(&o);
 }
 
@@ -210,6 +275,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_stack_with_voids_and_a_datum), cmocka_unit_test(a_table_of_geoclaw_enters_a_real_coast),
         cmocka_unit_test(degrees_are_projected),          cmocka_unit_test(a_survey_is_the_bed_of_a_grid),
+        cmocka_unit_test(degrees_are_the_bed_of_a_grid),  cmocka_unit_test(a_text_grid_is_told),
         cmocka_unit_test(refusals_name_the_remedy),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

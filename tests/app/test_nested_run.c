@@ -213,6 +213,10 @@ static void another_depth_of_the_grid_is_named(void **state)
     write_text("bed.yaml", HEAD "offshore: {cell: 0.04, min: [-6], max: [4], terrain: [{file: flat.asc, datum: 0}]}\n");
     outcome o = RUN(0, "check", "bed.yaml");
     assert_null(strstr(o.out, "warning: sea"));
+    assert_contains(o.out, "  offshore.terrain[0]\n    flat.asc: no coordinate system, taken as metres; 3 x 2 nodes, ");
+    outcome_free(&o);
+    o = RUN(0, "check", "bed.yaml", "--json");
+    assert_contains(o.out, "\"name\": \"offshore.terrain[0]\"");
     outcome_free(&o);
     o = RUN(0, "check", "bed.yaml", "--set", "offshore.terrain[0].datum=-100");
     assert_contains(o.out, "warning: sea: at x_min the water of the grid is 100.4 m deep in the mean, and that of the "

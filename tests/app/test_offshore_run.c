@@ -119,10 +119,23 @@ static void check_reports(void **state)
     outcome text = RUN(0, "check", "basin.yaml");
     assert_contains(text.out, "cells              40 x 20 of 2 m, 700 wet");
     assert_contains(text.out, "memory");
+    assert_contains(text.out,
+                    "  offshore.terrain[0]\n    deep.xyz: no coordinate system, taken as metres; 2 x 2 nodes, ");
+    assert_contains(text.out, "  offshore.terrain[1]\n    hill.xyz: ");
+    assert_contains(text.out, "; from (50, 10) to (70, 30) m; heights 1 to 1 m, of which datum +1 m; no voids\n");
     outcome_free(&text);
     outcome json = RUN(0, "check", "basin.yaml", "--json");
     assert_contains(json.out, "\"wet_cells\": 700");
+    assert_contains(json.out, "\"name\": \"offshore.terrain[1]\"");
+    assert_contains(json.out, "\"terrain\": \"hill.xyz: no coordinate system");
     outcome_free(&json);
+    /* Bodies that are the bed. */
+    outcome bodies = RUN(0, "check", "basin.yaml", "--set", "offshore.terrain=[]", "--set",
+                         "bodies=[{name: sea, shape: grid, file: deep.xyz}]");
+    assert_contains(bodies.out,
+                    "  terrain \"sea\"\n    deep.xyz: no coordinate system, taken as metres; 2 x 2 nodes, ");
+    assert_null(strstr(bodies.out, "offshore.terrain"));
+    outcome_free(&bodies);
 }
 
 static void refuse(const char *expected, const char *change)

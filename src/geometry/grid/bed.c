@@ -75,7 +75,22 @@ static void draw(const raster *r, sb_vec3 a, sb_vec3 b, sb_vec3 c)
         }
 }
 
-static sb_status draw_body(raster *r, const sb_body *body, sb_error *error)
+/* Moves the description of a grid from its mesh to the list. */
+static sb_status keep_told(const char *name, sb_mesh *mesh, sb_offshore_told_list *told, sb_error *error)
+{
+    size_t capacity = told->count;
+    if (!mesh->told) return SB_OK;
+    if (sb_grow((void **)&told->items, &capacity, told->count + 1, sizeof *told->items))
+        return sb_fail_memory(error, "the description of a terrain");
+    sb_offshore_told *item = &told->items[told->count++];
+    *item = (sb_offshore_told){.text = mesh->told};
+    snprintf(item->name, sizeof item->name, "%s", name);
+    mesh->told = NULL;
+    return SB_OK;
+}
+
+/* told: NULL: not wanted. */
+static sb_status draw_body(raster *r, const sb_body *body, sb_offshore_told_list *told, sb_error *error)
 {
     sb_mesh *meshes = NULL;
     size_t count = 0;
@@ -87,13 +102,15 @@ static sb_status draw_body(raster *r, const sb_body *body, sb_error *error)
             const uint32_t *corner = meshes[m].triangles[t];
             draw(r, v[corner[0]], v[corner[1]], v[corner[2]]);
         }
+        if (told && status == SB_OK) status = keep_told(body->name, &meshes[m], told, error);
         sb_mesh_free(&meshes[m]);
     }
     sb_free(meshes);
     return status;
 }
 
-static sb_status draw_grid(raster *r, const sb_offshore_grid *grid, const char *key, sb_error *error)
+static sb_status draw_grid(raster *r, const sb_offshore_grid *grid, const char *key, sb_offshore_told_list *told,
+                           sb_error *error)
 {
     sb_body body = {.shape = SB_SHAPE_GRID,
                     .role = SB_ROLE_TERRAIN,
@@ -101,9 +118,10 @@ static sb_status draw_grid(raster *r, const sb_offshore_grid *grid, const char *
                     .scale = grid->scale,
                     .positive = grid->positive,
                     .datum = grid->datum,
+                    .voids = SB_VOIDS_SHOW,
                     .translate = sb_vec(grid->x, grid->y, 0)};
     snprintf(body.name, sizeof body.name, "%s", key);
-    return draw_body(r, &body, error);
+    return draw_body(r, &body, told, error);
 }
 
 static void clear(const raster *r)
@@ -141,23 +159,25 @@ static sb_status check_covered(const raster *r, sb_error *error)
                    missing - 1, r->min[0], r->min[1], r->max[0], r->max[1], remedy(r));
 }
 
-sb_status sb_bed_fill(const sb_scene *scene, double *bed, size_t *uncovered, sb_error *error)
+sb_status sb_bed_fill(const sb_scene *scene, sb_offshore_start *start, sb_error *error)
 {
     const sb_offshore_settings *o = &scene->offshore;
+    double *bed = start->bed;
     raster r = raster_of(scene, bed);
     sb_status status = SB_OK;
     clear(&r);
-    *uncovered = 0;
+    start->uncovered = 0;
     r.replace = o->terrain_count > 0;
     for (size_t k = 0; status == SB_OK && k < o->terrain_count; k++) {
         char key[48];
         snprintf(key, sizeof key, "offshore.terrain[%zu]", k);
-        status = draw_grid(&r, &o->terrain[k], key, error);
+        status = draw_grid(&r, &o->terrain[k], key, &start->told, error);
     }
     if (o->terrain_count > 0) return status == SB_OK ? check_covered(&r, error) : status;
-    for (size_t b = 0; status == SB_OK && b < scene->body_count; b++) status = draw_body(&r, &scene->bodies[b], error);
+    for (size_t b = 0; status == SB_OK && b < scene->body_count; b++)
+        status = draw_body(&r, &scene->bodies[b], &start->told, error);
     for (size_t k = 0; k < r.columns * r.rows; k++) {
-        *uncovered += isnan(bed[k]) && scene->body_count > 0;
+        start->uncovered += isnan(bed[k]) && scene->body_count > 0;
         if (!(bed[k] >= scene->domain.min.z)) bed[k] = scene->domain.min.z;
     }
     return status;
@@ -168,7 +188,7 @@ sb_status sb_uplift_fill(const sb_scene *scene, double *uplift, sb_error *error)
     raster r = raster_of(scene, uplift);
     sb_status status = SB_OK;
     clear(&r);
-    if (scene->offshore.has_uplift) status = draw_grid(&r, &scene->offshore.uplift, "offshore.uplift", error);
+    if (scene->offshore.has_uplift) status = draw_grid(&r, &scene->offshore.uplift, "offshore.uplift", NULL, error);
     for (size_t k = 0; k < r.columns * r.rows; k++)
         if (isnan(uplift[k])) uplift[k] = 0;
     return status;

@@ -3,16 +3,17 @@
 #define SB_GEOMETRY_GRID_BED_H
 
 #include "base/status.h"
-#include "scene/scene.h"
+#include "offshore/start.h"
 
 /* Number of cells of scene->offshore; 1 row in 2D. */
 size_t sb_bed_columns(const sb_scene *scene);
 size_t sb_bed_rows(const sb_scene *scene);
 
-/* Fills bed[row * columns + column], m: linear within the triangles of offshore.terrain, or else the highest surface of
-   the bodies seen from above, or else the domain's floor. SB_BAD_INPUT names a file that cannot be read, or the first
-   cell that offshore.terrain does not cover. *uncovered: cells beside all bodies, which have the domain's floor. */
-sb_status sb_bed_fill(const sb_scene *scene, double *bed, size_t *uncovered, sb_error *error);
+/* Fills start->bed, which has room for the cells, in m: linear within the triangles of offshore.terrain, or else the
+   highest surface of the bodies seen from above, or else the domain's floor. SB_BAD_INPUT names a file that cannot be
+   read, or the first cell that offshore.terrain does not cover. Sets start->uncovered, and start->told to what the
+   grids state; the caller frees it also on error. */
+sb_status sb_bed_fill(const sb_scene *scene, sb_offshore_start *start, sb_error *error);
 
 /* Fills the heights of offshore.uplift in the same way; 0 where the file has none, and everywhere without an uplift. */
 sb_status sb_uplift_fill(const sb_scene *scene, double *uplift, sb_error *error);

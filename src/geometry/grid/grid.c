@@ -1,4 +1,4 @@
-/* Imports terrain grids as open surface meshes. */
+/* Reads text grids by the format of their names, and makes open surface meshes of grids. */
 #include "geometry/grid/grid.h"
 
 #include "base/file.h"
@@ -43,7 +43,7 @@ static size_t count_triangles(const sb_grid *grid)
 }
 
 /* Fills the mesh. Each node that a triangle uses becomes a vertex, in the order of the nodes. */
-static void fill_mesh(const sb_grid *grid, double datum, uint32_t *vertex_of, sb_mesh *mesh)
+static void fill_mesh(const sb_grid *grid, uint32_t *vertex_of, sb_mesh *mesh)
 {
     size_t triangle = 0, triangles[2][3];
     for (size_t j = 0; j + 1 < grid->rows; ++j)
@@ -60,7 +60,7 @@ static void fill_mesh(const sb_grid *grid, double datum, uint32_t *vertex_of, sb
         for (size_t i = 0; i < grid->columns; ++i, ++node) {
             if (!vertex_of[node]) continue;
             mesh->vertices[vertices] =
-                sb_vec(grid->x + (double)i * grid->dx, grid->y + (double)j * grid->dy, grid->heights[node] + datum);
+                sb_vec(grid->x + (double)i * grid->dx, grid->y + (double)j * grid->dy, grid->heights[node]);
             vertex_of[node] = vertices++;
         }
     for (size_t i = 0; i < mesh->triangle_count; ++i)
@@ -84,7 +84,7 @@ static sb_status list_holes(const sb_grid *grid, sb_mesh *mesh, sb_error *error)
     return SB_OK;
 }
 
-/* Adding the datum to numbers near DBL_MAX may give infinity. */
+/* Adding steps to numbers near DBL_MAX may give infinity. */
 static sb_status check_range(const char *path, const sb_mesh *mesh, sb_error *error)
 {
     for (size_t i = 0; i < mesh->vertex_count; ++i)
@@ -94,7 +94,7 @@ static sb_status check_range(const char *path, const sb_mesh *mesh, sb_error *er
     return SB_OK;
 }
 
-sb_status sb_grid_mesh(const char *path, const sb_grid *grid, double datum, sb_mesh *mesh, sb_error *error)
+sb_status sb_grid_mesh(const char *path, const sb_grid *grid, sb_mesh *mesh, sb_error *error)
 {
     size_t triangles = count_triangles(grid);
     if (triangles == 0)
@@ -105,7 +105,7 @@ sb_status sb_grid_mesh(const char *path, const sb_grid *grid, double datum, sb_m
     sb_mesh made;
     sb_status status = sb_mesh_alloc(&made, grid->rows * grid->columns, triangles, error);
     if (status == SB_OK) {
-        fill_mesh(grid, datum, vertex_of, &made);
+        fill_mesh(grid, vertex_of, &made);
         status = check_range(path, &made, error);
         if (status == SB_OK) status = list_holes(grid, &made, error);
         if (status == SB_OK)
@@ -164,14 +164,5 @@ sb_status sb_grid_read_text(const char *path, sb_grid *grid, sb_error *error)
     else
         status = read(path, text, grid, error);
     sb_free(text);
-    return status;
-}
-
-sb_status sb_mesh_import_grid(const char *path, double datum, sb_mesh *mesh, sb_error *error)
-{
-    sb_grid grid = {0};
-    sb_status status = sb_grid_read_text(path, &grid, error);
-    if (status == SB_OK) status = sb_grid_mesh(path, &grid, datum, mesh, error);
-    sb_free(grid.heights);
     return status;
 }

@@ -50,8 +50,8 @@ sb_status sb_grid_room(const char *path, const sb_grid *grid, size_t more, sb_er
 /* Reads a text grid in the format of its name's ending. The caller frees grid->heights. */
 sb_status sb_grid_read_text(const char *path, sb_grid *grid, sb_error *error);
 
-/* Makes the open surface of a grid; datum (m) is added to the heights. SB_BAD_INPUT for a grid without triangles. */
-sb_status sb_grid_mesh(const char *path, const sb_grid *grid, double datum, sb_mesh *mesh, sb_error *error);
+/* Makes the open surface of a grid. SB_BAD_INPUT for a grid without triangles. */
+sb_status sb_grid_mesh(const char *path, const sb_grid *grid, sb_mesh *mesh, sb_error *error);
 
 /* Like strtod, but for decimal numbers only: of 0x10 it reads the 0. */
 static inline double sb_decimal(const char *text, char **end)

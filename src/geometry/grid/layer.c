@@ -103,6 +103,12 @@ static double step_length(const sb_layer *layer, int k)
     return hypot(to[0] - from[0], to[1] - from[1]);
 }
 
+sb_terrain_area sb_layer_cells(const sb_raster_about *of)
+{
+    return (sb_terrain_area){{of->x - 0.5 * of->dx, of->y - 0.5 * of->dy},
+                             {of->x + of->dx * ((double)of->columns - 0.5), of->y + of->dy * ((double)of->rows - 0.5)}};
+}
+
 sb_status sb_layer_project(sb_layer *layer, const char *to, sb_error *error)
 {
     const sb_raster_about *of = &layer->about;
@@ -110,9 +116,7 @@ sb_status sb_layer_project(sb_layer *layer, const char *to, sb_error *error)
     if (layer->system[0] && strcmp(layer->system, to) != 0 &&
         sb_projection_create(layer->system, to, &layer->projection, &reason) != SB_OK)
         return sb_fail(error, SB_BAD_INPUT, "%.500s: %.700s", layer->path, reason.text);
-    const sb_terrain_area cells = {
-        {of->x - 0.5 * of->dx, of->y - 0.5 * of->dy},
-        {of->x + of->dx * ((double)of->columns - 0.5), of->y + of->dy * ((double)of->rows - 0.5)}};
+    const sb_terrain_area cells = sb_layer_cells(of);
     layer->area = transformed(layer, &cells, to_ground);
     layer->cell = fmin(step_length(layer, 0), step_length(layer, 1));
     if (isfinite(layer->cell) && layer->cell > 0 && layer->area.min[0] < layer->area.max[0]) return SB_OK;

@@ -24,6 +24,9 @@ typedef struct sb_layer {
 sb_status sb_layer_open(const char *path, const char *crs, double datum, sb_layer *layer, sb_error *error);
 void sb_layer_close(sb_layer *layer);
 
+/* The rectangle of a grid's cells, in file units. */
+sb_terrain_area sb_layer_cells(const sb_raster_about *about);
+
 /* Sets projection, area and cell for the ground's projection; "": the layer is in m of it. */
 sb_status sb_layer_project(sb_layer *layer, const char *to, sb_error *error);
 

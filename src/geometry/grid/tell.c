@@ -22,24 +22,49 @@ __attribute__((format(printf, 2, 3))) static void add(lines *to, const char *for
     va_end(values);
 }
 
+/* What the scene does to heights that are missing and stay so. */
+static const char *fate(const sb_body *body)
+{
+    return body->voids == SB_VOIDS_SHOW ? "left to the grids before it" : "kept as holes; `voids: fill` fills them";
+}
+
+static void tell_extent(const sb_body *body, const double min[2], const double max[2], lines *to)
+{
+    add(to, "from (%.10g, %.10g) to (%.10g, %.10g) m", min[0] * body->scale, min[1] * body->scale, max[0] * body->scale,
+        max[1] * body->scale);
+}
+
+/* The transform of the body, in its order. */
+static void tell_transform(const sb_body *body, lines *to)
+{
+    const sb_vec3 *turn = &body->rotate, *way = &body->translate;
+    if (turn->x != 0 || turn->y != 0 || turn->z != 0)
+        add(to, "; rotated by (%g, %g, %g) degrees", turn->x, turn->y, turn->z);
+    if (way->x != 0 || way->y != 0 || way->z != 0)
+        add(to, "; moved by (%.10g, %.10g, %.10g) m", way->x, way->y, way->z);
+}
+
 static void tell_layer(const sb_body *body, const sb_layer *of, lines *to)
 {
     const char *name = strrchr(of->path, '/');
     const sb_raster_about *about = &of->about;
     const bool degrees = of->system[0] && of->unit == SB_PROJECTION_DEGREES;
+    const bool other = (of->system[0] && of->unit == SB_PROJECTION_OTHER) || body->scale != 1;
     add(to, "%.200s: ", name ? name + 1 : of->path);
     if (of->system[0])
         add(to, "%.100s%s", of->system, of->projection ? ", projected" : "");
-    else
+    else if (body->scale == 1)
         add(to, "no coordinate system, taken as metres");
+    else
+        add(to, "no coordinate system, units of %g m", body->scale);
     add(to, "; %llu x %llu nodes, %.6g x %.6g %s", (unsigned long long)about->columns, (unsigned long long)about->rows,
         about->dx, about->dy,
-        degrees                                            ? "degrees"
-        : of->system[0] && of->unit == SB_PROJECTION_OTHER ? "units"
-                                                           : "m");
-    if (of->projection) add(to, " (%.4g m)", of->cell);
-    add(to, "; from (%.10g, %.10g) to (%.10g, %.10g) m", of->area.min[0], of->area.min[1], of->area.max[0],
-        of->area.max[1]);
+        degrees ? "degrees"
+        : other ? "units"
+                : "m");
+    if (of->projection) add(to, " (%.4g m)", of->cell * body->scale);
+    add(to, "; ");
+    tell_extent(body, of->area.min, of->area.max, to);
     add(to, "; vertical datum: ");
     if (about->vertical)
         add(to, "EPSG:%u", about->vertical);
@@ -57,24 +82,29 @@ static void tell_ground(const sb_body *body, const sb_terrain *ground, lines *to
     const double sign = body->positive == SB_POSITIVE_DOWN ? -1 : 1;
     double least = (double)INFINITY, most = -(double)INFINITY;
     for (size_t n = 0; n < nodes; ++n) {
-        if (isnan(grid->heights[n])) continue;
-        least = fmin(least, sign * grid->heights[n]);
-        most = fmax(most, sign * grid->heights[n]);
+        const double height = sign * grid->heights[n]; /* NAN is neither */
+        least = height < least ? height : least;
+        most = height > most ? height : most;
     }
-    add(to, "ground: %.100s%s; %zu x %zu nodes of %.6g x %.6g m; from (%.10g, %.10g) to (%.10g, %.10g) m",
-        ground->projection[0] ? ground->projection : "metres as in the file",
-        ground->zone ? ", the UTM zone of the finest file" : "", grid->columns, grid->rows, grid->dx, grid->dy,
-        grid->x + body->origin[0], grid->y + body->origin[1],
-        grid->x + body->origin[0] + grid->dx * (double)(grid->columns - 1),
-        grid->y + body->origin[1] + grid->dy * (double)(grid->rows - 1));
+    const double first[2] = {grid->x + body->origin[0], grid->y + body->origin[1]};
+    const double last[2] = {first[0] + grid->dx * (double)(grid->columns - 1),
+                            first[1] + grid->dy * (double)(grid->rows - 1)};
+    add(to, "ground: %.100s%s; %zu x %zu nodes of %.6g x %.6g m; ",
+        ground->projection[0] ? ground->projection
+        : body->scale == 1    ? "metres as in the file"
+                              : "as in the file",
+        ground->zone ? ", the UTM zone of the finest file" : "", grid->columns, grid->rows, grid->dx * body->scale,
+        grid->dy * body->scale);
+    tell_extent(body, first, last, to);
     add(to, "; heights %.6g to %.6g m", least * body->scale + body->datum, most * body->scale + body->datum);
     if (body->datum != 0) add(to, ", of which datum %+g m", body->datum);
     if (ground->voids == 0)
         add(to, "; no voids");
     else
         add(to, "; %zu voids (%.3g %%), %s", ground->voids, 100 * (double)ground->voids / (double)nodes,
-            ground->filled ? "interpolated from the heights around them" : "kept as holes; `voids: fill` fills them");
+            ground->filled ? "interpolated from the heights around them" : fate(body));
     if (ground->outside) add(to, "; %zu nodes in no file", ground->outside);
+    tell_transform(body, to);
 }
 
 sb_status sb_terrain_tell(const sb_body *body, const sb_terrain *ground, char **text, sb_error *error)

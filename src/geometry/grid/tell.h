@@ -16,7 +16,7 @@ typedef struct sb_terrain {
 } sb_terrain;
 
 /* Writes lines without a newline at the end: for each file its coordinate system, extent, resolution and vertical
-   system; then those of the ground, its heights and voids. The caller frees *text. */
+   system; then those of the ground, its heights and voids, and how the body moves it. The caller frees *text. */
 sb_status sb_terrain_tell(const sb_body *body, const sb_terrain *ground, char **text, sb_error *error);
 
 #endif

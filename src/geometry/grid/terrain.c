@@ -258,7 +258,7 @@ sb_status sb_terrain_make(const sb_body *body, const sb_terrain_area *wanted, sb
     if (status == SB_OK) {
         ground.grid.x -= body->origin[0];
         ground.grid.y -= body->origin[1];
-        status = sb_grid_mesh(ground.layers[0].path, &ground.grid, 0, &made, error);
+        status = sb_grid_mesh(ground.layers[0].path, &ground.grid, &made, error);
     }
     if (status == SB_OK) status = sb_terrain_tell(body, &ground, &made.told, error);
     if (status == SB_OK)

@@ -109,7 +109,7 @@ static sb_terrain_area area_of(const sb_body *body, const box *within)
 
 static sb_status make_grid(const sb_body *body, const box *within, sb_mesh *mesh, sb_error *error)
 {
-    if (!sb_terrain_applies(body)) return sb_mesh_import_grid(body->file, 0, mesh, error);
+    if (!sb_terrain_applies(body)) return sb_mesh_import_grid(body, mesh, error);
     const sb_terrain_area area = within ? area_of(body, within) : (sb_terrain_area){.min = {0}};
     return sb_terrain_make(body, within ? &area : NULL, mesh, error);
 }

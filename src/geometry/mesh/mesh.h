@@ -25,7 +25,7 @@ typedef struct sb_mesh {
     size_t node_count; /* number of vertices that are nodes of a grid; they come first */
     size_t hole_count; /* number of the grid's nodes without a height */
     sb_vec3 *holes;    /* positions of these nodes, z has no meaning */
-    char *told;        /* lines that describe a terrain from files, for `check`; NULL: none */
+    char *told;        /* lines that describe a terrain grid, for `check`; NULL: none */
     double rounded;    /* m, rounding error of the file's coordinates in single precision */
 } sb_mesh;
 
@@ -82,10 +82,11 @@ sb_status sb_mesh_import(const char *path, sb_mesh **meshes, size_t *count, sb_e
    has all. */
 const char *sb_mesh_fence_gaps(void);
 
-/* Reads terrain heights as an open surface: ESRI ASCII (.asc; nodata cells are holes) or lines "x y z" on a regular
-   grid (.xyz, in any order; missing points are holes). Coordinates are in the file's units; datum is added to the
-   heights. SB_BAD_INPUT "file:line: what, expected". */
-sb_status sb_mesh_import_grid(const char *path, double datum, sb_mesh *mesh, sb_error *error);
+/* Reads the terrain heights of body->file as an open surface: ESRI ASCII (.asc; nodata cells are holes) or lines "x y
+   z" on a regular grid (.xyz, in any order; missing points are holes). Coordinates and heights are the file's.
+   mesh->told describes it, with the scale, datum and transform of the body. SB_BAD_INPUT "file:line: what, expected".
+   *mesh is unchanged on error. */
+sb_status sb_mesh_import_grid(const sb_body *body, sb_mesh *mesh, sb_error *error);
 
 /* Analytic shapes with normals towards the water. The chord error of round shapes is at most tolerance (m). A
    plane's width is along z x normal (along x if the plane is horizontal), and its length is perpendicular to that. */

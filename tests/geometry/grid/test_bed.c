@@ -25,11 +25,11 @@ static void bodies_are_seen_from_above(void **state)
                          {.name = "box", .shape = SB_SHAPE_BOX, .min = {4, 2, -9}, .max = {6, 4, 1}}};
     sb_scene scene = scene_of(bodies, 2);
     double bed[20 * 12];
-    size_t uncovered;
+    sb_offshore_start start = {.bed = bed};
     sb_error error = {0};
     assert_int_equal(sb_bed_columns(&scene), 20);
     assert_int_equal(sb_bed_rows(&scene), 12);
-    assert_int_equal(sb_bed_fill(&scene, bed, &uncovered, &error), SB_OK);
+    assert_int_equal(sb_bed_fill(&scene, &start, &error), SB_OK);
     size_t floor = 0;
     for (size_t k = 0; k < 20 * 12; k++) {
         const double x = 0.25 + 0.5 * (double)(k % 20), y = 0.25 + 0.5 * (double)(k / 20);
@@ -37,7 +37,8 @@ static void bodies_are_seen_from_above(void **state)
         floor += !on_slope;
         assert_near(bed[k], on_box ? 1 : on_slope ? -1 + 0.1 * (x - 5) : -5, 1e-12);
     }
-    assert_int_equal(uncovered, floor);
+    assert_int_equal(start.uncovered, floor);
+    assert_int_equal(start.told.count, 0);
 }
 
 /* Without bodies the bed is the domain's floor; in 2D there is one row. */
@@ -47,12 +48,12 @@ static void a_flat_floor(void **state)
     sb_scene scene = scene_of(NULL, 0);
     scene.dimensions = 2;
     double bed[20];
-    size_t uncovered;
+    sb_offshore_start start = {.bed = bed};
     sb_error error = {0};
     assert_int_equal(sb_bed_rows(&scene), 1);
-    assert_int_equal(sb_bed_fill(&scene, bed, &uncovered, &error), SB_OK);
+    assert_int_equal(sb_bed_fill(&scene, &start, &error), SB_OK);
     for (size_t k = 0; k < 20; k++) assert_near(bed[k], -5, 0);
-    assert_int_equal(uncovered, 0);
+    assert_int_equal(start.uncovered, 0);
     assert_int_equal(sb_uplift_fill(&scene, bed, &error), SB_OK);
     for (size_t k = 0; k < 20; k++) assert_near(bed[k], 0, 0);
 }

@@ -28,11 +28,21 @@ static const char *save(const char *name, const char *text)
     return path;
 }
 
-static sb_mesh read_grid(const char *name, const char *text, double datum)
+static sb_status import(const char *path, sb_mesh *mesh)
+{
+    char *copy = sb_strdup(path);
+    assert_non_null(copy);
+    const sb_body body = {.shape = SB_SHAPE_GRID, .file = copy, .scale = 1};
+    const sb_status status = sb_mesh_import_grid(&body, mesh, &error);
+    sb_free(copy);
+    return status;
+}
+
+static sb_mesh read_grid(const char *name, const char *text)
 {
     sb_mesh mesh;
     const char *path = save(name, text);
-    sb_status status = sb_mesh_import_grid(path, datum, &mesh, &error);
+    sb_status status = import(path, &mesh);
     remove(path);
     if (status != SB_OK) fail_msg("%s", error.text);
     return mesh;
@@ -61,21 +71,17 @@ static void check_looks_up(const sb_mesh *mesh, double plan_area)
 static void test_ascii(void **state)
 {
     (void)state;
-    sb_mesh mesh = read_grid("a.asc",
-                             "NCOLS 3\nnrows 2\nxllcorner 100\nyllcorner 200\ncellsize 10\n"
-                             "NODATA_value -9999\n1 2 3\n4 5 6\n",
-                             0.5);
+    sb_mesh mesh = read_grid("a.asc", "NCOLS 3\nnrows 2\nxllcorner 100\nyllcorner 200\ncellsize 10\n"
+                                      "NODATA_value -9999\n1 2 3\n4 5 6\n");
     assert_int_equal(mesh.vertex_count, 6);
     assert_int_equal(mesh.triangle_count, 4);
-    assert_true(has_vertex(&mesh, 105, 215, 1.5)); /* the first number is the north-western node */
-    assert_true(has_vertex(&mesh, 125, 205, 6.5));
+    assert_true(has_vertex(&mesh, 105, 215, 1)); /* the first number is the north-western node */
+    assert_true(has_vertex(&mesh, 125, 205, 6));
     check_looks_up(&mesh, 200);
     sb_mesh_free(&mesh);
     /* A hole removes from each square around it the half that touches it. */
-    mesh = read_grid("h.ASC",
-                     "ncols 3\r\nnrows 3\r\nxllcenter 0\r\nyllcenter 0\r\ncellsize 2\r\n"
-                     "nodata_value -1\r\n1 1 1\r\n1 -1 1\r\n1 1 -1.0\r\n",
-                     0);
+    mesh = read_grid("h.ASC", "ncols 3\r\nnrows 3\r\nxllcenter 0\r\nyllcenter 0\r\ncellsize 2\r\n"
+                              "nodata_value -1\r\n1 1 1\r\n1 -1 1\r\n1 1 -1.0\r\n");
     assert_int_equal(mesh.vertex_count, 7);
     assert_int_equal(mesh.triangle_count, 3);
     assert_false(has_vertex(&mesh, 2, 2, -1));
@@ -85,13 +91,12 @@ static void test_ascii(void **state)
     assert_true(mesh.holes[0].x == 4 && mesh.holes[0].y == 0 && mesh.holes[1].x == 2 && mesh.holes[1].y == 2);
     sb_mesh_free(&mesh);
     /* Without this line the value is -9999. */
-    mesh = read_grid("n.asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 1 -9999\n1 1 1\n", 0);
+    mesh = read_grid("n.asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 1 -9999\n1 1 1\n");
     assert_int_equal(mesh.vertex_count, 5);
     assert_int_equal(mesh.hole_count, 1);
     check_looks_up(&mesh, 1.5);
     sb_mesh_free(&mesh);
-    mesh =
-        read_grid("n.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nnodata_value -1\n1 1 1 -9999\n", 0);
+    mesh = read_grid("n.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nnodata_value -1\n1 1 1 -9999\n");
     assert_int_equal(mesh.vertex_count, 4);
     assert_int_equal(mesh.hole_count, 0);
     sb_mesh_free(&mesh);
@@ -101,16 +106,14 @@ static void test_points(void **state)
 {
     (void)state;
     /* Steps of 1/3 and 50, rounded, in no particular order, with one point missing. */
-    sb_mesh mesh = read_grid("p.xyz",
-                             "# easting northing height\n"
-                             "0.667 150 6\n0 100 1\n\n1.000,100,4\n0.333 100 2\r\n0.667;100;3\n"
-                             "0 150 5\n1 150 7.5",
-                             -1);
+    sb_mesh mesh = read_grid("p.xyz", "# easting northing height\n"
+                                      "0.667 150 6\n0 100 1\n\n1.000,100,4\n0.333 100 2\r\n0.667;100;3\n"
+                                      "0 150 5\n1 150 7.5");
     assert_int_equal(mesh.vertex_count, 7);
     assert_int_equal(mesh.triangle_count, 4);
-    assert_true(has_vertex(&mesh, 0, 100, 0));
-    assert_true(has_vertex(&mesh, 1, 150, 6.5));
-    assert_true(has_vertex(&mesh, 1.0 / 3, 100, 1));
+    assert_true(has_vertex(&mesh, 0, 100, 1));
+    assert_true(has_vertex(&mesh, 1, 150, 7.5));
+    assert_true(has_vertex(&mesh, 1.0 / 3, 100, 2));
     check_looks_up(&mesh, 2.0 / 3 * 50);
     sb_mesh_free(&mesh);
 }
@@ -120,7 +123,7 @@ static void expect_refusal(const char *name, const char *text, const char *why)
     sb_mesh mesh = {.vertex_count = 77};
     const char *path = save(name, text);
     error.text[0] = '\0';
-    sb_status status = sb_mesh_import_grid(path, 0, &mesh, &error);
+    sb_status status = import(path, &mesh);
     remove(path);
     if (status != SB_BAD_INPUT || strncmp(error.text, path, strlen(path)) != 0 || !strstr(error.text, why))
         fail_msg("%s: status %d: \"%s\" does not say \"%s\"", text, status, error.text, why);
@@ -131,16 +134,12 @@ static void expect_refusal(const char *name, const char *text, const char *why)
 static void test_a_byte_order_mark(void **state)
 {
     (void)state;
-    sb_mesh mesh = read_grid("m.asc",
-                             "\xef\xbb\xbf"
-                             "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n",
-                             0);
+    sb_mesh mesh = read_grid("m.asc", "\xef\xbb\xbf"
+                                      "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n");
     assert_int_equal(mesh.vertex_count, 4);
     sb_mesh_free(&mesh);
-    mesh = read_grid("m.xyz",
-                     "\xef\xbb\xbf"
-                     "0 0 1\n1 0 2\n0 1 3\n1 1 4\n",
-                     0);
+    mesh = read_grid("m.xyz", "\xef\xbb\xbf"
+                              "0 0 1\n1 0 2\n0 1 3\n1 1 4\n");
     assert_int_equal(mesh.vertex_count, 4);
     sb_mesh_free(&mesh);
 }
@@ -184,8 +183,8 @@ static void test_bad_ascii(void **state)
                    ":10: the file ends");
     expect_refusal("b.asc", HEAD "1 2\n3 -inf\n", ":7: \"-inf\"");
     expect_refusal("b.tif", HEAD "1 2 3 4", "unknown grid format");
-    assert_int_equal(sb_mesh_import_grid("/nonexistent/b.asc", 0, NULL, &error), SB_BAD_INPUT);
-    assert_int_equal(sb_mesh_import_grid("/", 0, NULL, &error), SB_BAD_INPUT);
+    assert_int_equal(import("/nonexistent/b.asc", NULL), SB_BAD_INPUT);
+    assert_int_equal(import("/", NULL), SB_BAD_INPUT);
 }
 
 static void test_bad_points(void **state)
@@ -208,7 +207,7 @@ static void test_bad_points(void **state)
 /* Expects six nodes, the north-western with height 1, and steps of 10 and 20. */
 static void expect_six(const char *name, const char *text, double x, double y)
 {
-    sb_mesh mesh = read_grid(name, text, 0);
+    sb_mesh mesh = read_grid(name, text);
     assert_int_equal(mesh.vertex_count + mesh.hole_count, 6);
     if (!has_vertex(&mesh, x, y + 20, 1) || !has_vertex(&mesh, x + 20, y, 6)) fail_msg("%s", text);
     sb_mesh_free(&mesh);
@@ -221,7 +220,7 @@ static void test_unequal_steps(void **state)
     expect_six("s.asc", "ncols 3\nnrows 2\nxllcenter 100\nyllcenter 200\nDX 10.0\nDY 20.0\n1 2 3\n4 5 6\n", 100, 200);
     expect_six("s.asc", "ncols 3\nnrows 2\nxllcorner 1\nyllcorner 2\ncellsize 10 20\n1 2 3\n4 5 6\n", 6, 12);
     /* Equal steps are a cellsize. */
-    sb_mesh mesh = read_grid("e.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ndx 2\ndy 2\n1 2\n3 4\n", 0);
+    sb_mesh mesh = read_grid("e.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ndx 2\ndy 2\n1 2\n3 4\n");
     assert_true(has_vertex(&mesh, 1, 3, 1) && has_vertex(&mesh, 3, 1, 4));
     sb_mesh_free(&mesh);
 }
@@ -234,11 +233,11 @@ static void test_missing_heights_and_comments(void **state)
                "nodata_value nan\n# heights\n1 nan 3\n4 5 6 # end\n",
                0, 0);
     expect_six("m.asc", "ncols 3\nnrows 2\nxllcenter 0\nyllcenter 0\ndx 10\ndy 20\n1 2 -NaN\n4 5 6\n", 0, 0);
-    sb_mesh mesh = read_grid("m.asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nnan 1 1\n1 1 NaN\n", 0);
+    sb_mesh mesh = read_grid("m.asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nnan 1 1\n1 1 NaN\n");
     assert_int_equal(mesh.hole_count, 2);
     assert_int_equal(mesh.triangle_count, 2);
     sb_mesh_free(&mesh);
-    mesh = read_grid("m.xyz", "0 0 1\n1 0 nan\n2 0 1\n0 1 1\n1 1 1\n2 1 1\n", 0);
+    mesh = read_grid("m.xyz", "0 0 1\n1 0 nan\n2 0 1\n0 1 1\n1 1 1\n2 1 1\n");
     assert_int_equal(mesh.hole_count, 1);
     assert_true(mesh.holes[0].x == 1 && mesh.holes[0].y == 0);
     sb_mesh_free(&mesh);
@@ -258,13 +257,11 @@ static void test_geoclaw(void **state)
     expect_six("g.topotype2",
                "3 mx\n2 my\n0. xllcorner\n20. yllcorner\n10. 20. cellsize\n9999. nodatavalue\n1.\n2.\n3.\n4.\n5.\n6.\n",
                5, 30);
-    sb_mesh mesh = read_grid("g.asc",
-                             "2 ncols\n2 nrows\n0 xlower\n20 ylower\n10 cellsize\n9999 nodata_value\n"
-                             "-1 -2\n-3 -4\n",
-                             0);
+    sb_mesh mesh = read_grid("g.asc", "2 ncols\n2 nrows\n0 xlower\n20 ylower\n10 cellsize\n9999 nodata_value\n"
+                                      "-1 -2\n-3 -4\n");
     assert_true(has_vertex(&mesh, 0, 30, -1) && has_vertex(&mesh, 10, 20, -4));
     sb_mesh_free(&mesh);
-    mesh = read_grid("g.tt1", "0. 30. -1000.\n10. 30. -1000.\n0. 20. -1000.\n10. 20. -1000.\n", 0);
+    mesh = read_grid("g.tt1", "0. 30. -1000.\n10. 30. -1000.\n0. 20. -1000.\n10. 20. -1000.\n");
     assert_true(has_vertex(&mesh, 10, 20, -1000));
     sb_mesh_free(&mesh);
 }
@@ -277,7 +274,7 @@ static void test_points_with_a_header(void **state)
     for (size_t i = 0; i < sizeof heads / sizeof *heads; ++i) {
         char text[256];
         snprintf(text, sizeof text, "%s\n0,0,1\n1,0,2\n0,1,3\n1,1,4\n", heads[i]);
-        sb_mesh mesh = read_grid("h.xyz", text, 0);
+        sb_mesh mesh = read_grid("h.xyz", text);
         assert_int_equal(mesh.vertex_count, 4);
         assert_true(has_vertex(&mesh, 0, 0, 1));
         sb_mesh_free(&mesh);
@@ -300,6 +297,11 @@ static void test_depths_count_downwards(void **state)
     size_t count;
     if (sb_mesh_from_body(&body, 0.1, &meshes, &count, &error) != SB_OK) fail_msg("%s", error.text);
     assert_int_equal(meshes->hole_count, 1);
+    assert_non_null(strstr(meshes->told,
+                           "d.asc: no coordinate system, units of 2 m; 2 x 2 nodes, 1 x 1 units; from (0, 0) "
+                           "to (4, 4) m; vertical datum: none stated\n"));
+    assert_non_null(strstr(meshes->told, "ground: as in the file; 2 x 2 nodes of 2 x 2 m; from (1, 1) to (3, 3) m; "
+                                         "heights 4 to 8 m, of which datum +10 m; 1 voids (25 %), kept as holes"));
     assert_true(has_vertex(meshes, 1, 3, 8) && has_vertex(meshes, 3, 3, 6) && has_vertex(meshes, 1, 1, 4));
     check_looks_up(meshes, 2);
     sb_mesh_free(meshes);
@@ -313,7 +315,8 @@ static void test_measured_sea_bed(void **state)
     const char *path = SB_SOURCE_DIR "/../shared/data/solitary-conical-island/bathymetry.asc";
     if (access(path, R_OK) != 0) skip();
     sb_mesh mesh;
-    if (sb_mesh_import_grid(path, -0.78, &mesh, &error) != SB_OK) fail_msg("%s", error.text);
+    if (import(path, &mesh) != SB_OK) fail_msg("%s", error.text);
+    for (size_t i = 0; i < mesh.vertex_count; ++i) mesh.vertices[i].z -= 0.78;
     assert_int_equal(mesh.vertex_count, 441 * 261);
     assert_int_equal(mesh.triangle_count, 2 * 440 * 260);
     check_looks_up(&mesh, 44.0 * 26.0);
