@@ -74,8 +74,9 @@ static const sb_key keys[] = {
      .doc = "Corner of the grid with the largest x and y; [x] in 2D. Each extent is a whole number of cells."},
     {.name = "terrain", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_offshore_settings, terrain, terrain_count),
      .table = &grid_table, .derived = "the bodies",
-     .doc = "Grids of the bed, coarse ones first: where a later one has heights, these count; a file name alone is a grid "
-            "without other keys. Together they cover the grid. Without it, the bed is the highest surface of the bodies, or else the domain's floor."},
+     .doc = "Grids of the bed, coarse ones first: where a later one has heights, these count; a file name alone is a "
+            "grid without other keys. Together they cover the grid. Without it, the bed is the highest surface of the "
+            "bodies, or else the domain's floor."},
     {.name = "level", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_offshore_settings, level), .unit = "m", SB_KEY_ANY,
      .derived = "`water.level`; 0 without particles",
      .doc = "Still-water level: all ground below it is under water at the start."},

@@ -154,7 +154,8 @@ typedef struct sb_model_team {
 
 /* The same for one of several ranks, all of which call it. It has a part of the fluid particles if the water can be
    placed in parts (it is one sea or one box): model->part; and a part of the boundary particles if the longest axis
-   is not periodic and there are neither foam nor dynamic boundary particles: model->walls. All ranks have the same
+   is not periodic, the support is no wider than a slab allows (sb_model_divides_walls), and there are neither foam nor
+   dynamic boundary particles: model->walls. All ranks have the same
    model otherwise, warnings and hash included. */
 sb_status sb_model_build_part(const sb_scene *scene, sb_model_need *need, const sb_model_team *team, sb_model *model,
                               sb_error *error);

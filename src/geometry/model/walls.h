@@ -4,8 +4,8 @@
 
 #include "geometry/model/parts.h"
 
-/* The surfaces that are sampled. The sources are owned; their meshes and solids are the space's or those of `wholes`.
- */
+/* The surfaces that are sampled. The sources are owned; their meshes and solids are the space's or those of
+   `wholes`. */
 typedef struct sb_model_surfaces {
     sb_sample_settings settings;
     size_t count;

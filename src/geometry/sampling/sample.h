@@ -43,8 +43,8 @@ void sb_samples_free(sb_samples *samples);
 
 /* The domain is cut into slabs of at least SB_SAMPLE_SLAB spacings, one after another along its longest axis, that of
    sb_sample_axis. Cuts them into parts of about the same area of static surfaces: part k has the slabs [bounds[k],
-   bounds[k + 1]). bounds: parts
-   + 1, the last one is the number of slabs. SB_FAILED without memory. */
+   bounds[k + 1]). `bounds` has one more item than there are parts, the last one is the number of slabs. SB_FAILED
+   without memory. */
 #define SB_SAMPLE_SLAB 16.0
 int sb_sample_axis(sb_vec3 min, sb_vec3 max, int dimensions);
 sb_status sb_sample_divide(const sb_sample_settings *settings, const sb_sample_source *sources, size_t count,

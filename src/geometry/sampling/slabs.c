@@ -75,9 +75,8 @@ static int visit_slab(const sb_sample_set *set, uint32_t slab, sb_slab_visit *vi
     return failed;
 }
 
-/* Whether slabs in [first, last) depend on a stage of a slab. What a slab sees beside it has passed earlier stages
- * only.
- */
+/* Whether slabs in [first, last) depend on a stage of a slab. What a slab sees beside it has passed only earlier
+   stages. */
 static bool is_needed(uint32_t slab, int stage, uint32_t first, uint32_t last)
 {
     const uint32_t beyond = slab < first ? first - slab : slab >= last ? slab - last + 1 : 0;

@@ -42,7 +42,8 @@ typedef struct ranks_way {
     uint64_t disturb;
     const sb_archive_out *from;
     int steps;    /* instead of the case's, if > 0 */
-    bool divided; /* each rank has a model of its own, with its part of the particles */
+    bool divided; /* each rank has a model of its own, with its part of the boundary particles */
+    bool water;   /* and of the water */
 } ranks_way;
 
 /* What a run came to. What differs between the ranks is that of the first. */

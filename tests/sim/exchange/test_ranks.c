@@ -109,8 +109,8 @@ static void any_number_of_ranks(void **state)
 static void each_rank_places_a_part(void **state)
 {
     (void)state;
-    static const ranks_way ways[] = {{.ranks = 2, .threads = 2, .divided = true},
-                                     {.ranks = 5, .threads = 1, .divided = true}};
+    static const ranks_way ways[] = {{.ranks = 2, .threads = 2, .divided = true, .water = true},
+                                     {.ranks = 5, .threads = 1, .divided = true, .water = true}};
     check_case(&ranks_sea, ways, sizeof ways / sizeof *ways);
 }
 
