@@ -99,7 +99,7 @@ static const struct {
     {"run tank2.yaml --until inf", "--until inf: expected"},
     {"run tank2.yaml --until 3s", "--until 3s: expected"},
     {"run tank2.yaml --until=", "--until : expected"},
-    {"run tank2.yaml --until 1e300", "measure.interval"},
+    {"run tank2.yaml --until 1e12", "measure.interval"},
     {"run tank2.yaml --preset best", "best is not known, expected default, paper or wen"},
     {"run tank2.yaml --set resolution", "expected KEY=VALUE"},
     {"run tank2.yaml --set =3", "expected KEY=VALUE"},
@@ -402,9 +402,9 @@ static void bodies_may_extend_far_within_a_limit(void **state)
     outcome o = RUN(0, "check", "tank3.yaml", "--set", "bodies[0].max=[1e6, 0.6, 0.8]");
     outcome_free(&o);
     assert_true(sb_clock() - begin < 20); /* s; sampling the whole body would take days */
-    o = RUN(1, "check", "tank3.yaml", "--set", "bodies[0].max=[1e20, 0.6, 0.8]");
+    o = RUN(1, "check", "tank3.yaml", "--set", "bodies[0].max=[1e12, 0.6, 0.8]");
     assert_one_line(
-        o.err, "body \"post\" extends to (1e+20, 0.3, 0) m: expected at most 1e+07 m, 1e8 spacings, from the domain");
+        o.err, "body \"post\" extends to (1e+12, 0.3, 0) m: expected at most 1e+07 m, 1e8 spacings, from the domain");
     outcome_free(&o);
 }
 
