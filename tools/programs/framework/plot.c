@@ -235,6 +235,16 @@ static void put_panel(FILE *out, const panel *p, const char *data, size_t first)
     fputc('\n', out);
 }
 
+/* Height of a panel that has room for the longest key in one column, px. */
+static size_t panel_height(const sb_plot *plot)
+{
+    size_t entries = 0;
+    for (size_t p = 0; p < plot->panel_count; p++)
+        if (plot->panels[p].layer_count > entries) entries = plot->panels[p].layer_count;
+    const size_t height = 80 + 18 * entries;
+    return height > 300 ? height : 300;
+}
+
 static void put_script(FILE *out, const void *what)
 {
     const sb_plot *plot = what;
@@ -242,7 +252,7 @@ static void put_script(FILE *out, const void *what)
     size_t first = 0;
     snprintf(data, sizeof data, "%s.dat", plot->name);
     fprintf(out, "set terminal pngcairo noenhanced size 900,%zu font 'Sans,10'\nset output ",
-            60 + 300 * plot->panel_count);
+            60 + panel_height(plot) * plot->panel_count);
     put_quoted(out, plot->picture);
     fprintf(out,
             "\nset grid lt 1 lw 0.5 lc rgb '#dddddd'\nset border 3 lc rgb '#555555'\n"
