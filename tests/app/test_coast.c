@@ -132,20 +132,22 @@ static void a_table_of_geoclaw_enters_a_real_coast(void **state)
     assert_true(json_number_of("waves/summary.json", "sea_J") > 0);
 }
 
+/* A survey in degrees, around (546780, 4249750) m of its UTM zone. */
+static const grid_sample in_degrees = {.columns = 60,
+                                       .rows = 60,
+                                       .x = 141.53,
+                                       .y = 38.39,
+                                       .dx = 0.0002,
+                                       .dy = 0.0002,
+                                       .height = degrees,
+                                       .geographic = true,
+                                       .northward = true,
+                                       .standard_name = "height_above_mean_sea_level"};
+
 static void degrees_are_projected(void **state)
 {
     (void)state;
-    const grid_sample sample = {.columns = 60,
-                                .rows = 60,
-                                .x = 141.53,
-                                .y = 38.39,
-                                .dx = 0.0002,
-                                .dy = 0.0002,
-                                .height = degrees,
-                                .geographic = true,
-                                .northward = true,
-                                .standard_name = "height_above_mean_sea_level"};
-    grid_sample_netcdf(&sample, in_folder("degrees.nc"));
+    grid_sample_netcdf(&in_degrees, in_folder("degrees.nc"));
     write_coast("degrees.yaml", "file: degrees.nc, origin: [546780, 4249750]");
     outcome o = program_run((const char *const[]){"check", "degrees.yaml", NULL});
     if (o.status != 0) fail_msg("%s", o.err);
@@ -195,17 +197,8 @@ static void a_survey_is_the_bed_of_a_grid(void **state)
 static void degrees_are_the_bed_of_a_grid(void **state)
 {
     (void)state;
-    const grid_sample sample = {.columns = 60,
-                                .rows = 60,
-                                .x = 141.53,
-                                .y = 38.39,
-                                .dx = 0.0002,
-                                .dy = 0.0002,
-                                .height = degrees,
-                                .geographic = true,
-                                .northward = true,
-                                .tile = 1,
-                                .standard_name = "height_above_mean_sea_level"};
+    grid_sample sample = in_degrees;
+    sample.tile = 1;
     grid_sample_netcdf(&sample, in_folder("gebco.nc"));
     write_text("degrees-bed.yaml",
                "title: Bed\nduration: 1\ndomain: {min: [0, 0, -20], max: [100, 40, 10]}\n"
