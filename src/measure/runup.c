@@ -85,8 +85,8 @@ static sb_status add_part(const sb_measure_view *view, const course *c, double f
 /* Limits the part [*start, *end] of the line to what is within [min, max] in one direction. */
 static void clip(double place, double u, double min, double max, double *start, double *end)
 {
-    const double a = (min - place) / u, b = (max - place) / u;
     if (u == 0) return;
+    const double a = (min - place) / u, b = (max - place) / u;
     *start = fmax(*start, fmin(a, b));
     *end = fmin(*end, fmax(a, b));
 }

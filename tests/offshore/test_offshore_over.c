@@ -74,6 +74,14 @@ static double around(const sb_offshore *grid, const place *p, double *surface, d
     return weight;
 }
 
+/* Whether there is water around a place; its surface and velocity by brute force, and the motion that is given there.
+ */
+static bool look(const sb_offshore *grid, const place *p, double *surface, double *u, sb_offshore_motion *m)
+{
+    sb_offshore_motion_over(grid, 0, p->x, p->y, p->ground, m);
+    return around(grid, p, surface, u) > 0;
+}
+
 /* Still water is at its level, or there is none: nowhere is water above the level, whatever the ground. */
 static void still_water_has_its_level(void **state)
 {
@@ -81,11 +89,10 @@ static void still_water_has_its_level(void **state)
     sb_offshore *grid = make(at_rest);
     size_t wet = 0, low = 0, none = 0;
     for (uint64_t k = 0; k < PLACES; k++) {
-        const place p = place_of(k);
         sb_offshore_motion m;
         double surface, u;
-        const bool water = around(grid, &p, &surface, &u) > 0;
-        sb_offshore_motion_over(grid, 0, p.x, p.y, p.ground, &m);
+        const place p = place_of(k);
+        const bool water = look(grid, &p, &surface, &u, &m);
         assert_int_equal(m.wet, water && p.ground < 0);
         if (water)
             assert_near(m.surface, 0, 1e-12);
@@ -109,11 +116,10 @@ static void water_is_that_of_the_cells_around(void **state)
     (void)state;
     sb_offshore *grid = make(rough);
     for (uint64_t k = 0; k < PLACES; k++) {
-        const place p = place_of(k);
         sb_offshore_motion m;
         double surface, u;
-        const bool water = around(grid, &p, &surface, &u) > 0;
-        sb_offshore_motion_over(grid, 0, p.x, p.y, p.ground, &m);
+        const place p = place_of(k);
+        const bool water = look(grid, &p, &surface, &u, &m);
         assert_int_equal(m.wet, water && p.ground < surface);
         if (water) assert_near(m.surface, surface, 1e-9);
         if (m.wet && m.surface - m.bed > 1) assert_near(m.u, u, 1e-6);

@@ -203,6 +203,7 @@ static void measure_bodies(search *s)
         for (size_t i = body->begin; i < body->begin + body->count; i++) {
             if (!is_own(model, i)) continue;
             s->totals[FACES * b + (size_t)sb_model_direction_of(model->wall_normal[i])]++;
+            if (model->walls.divided) continue;
             s->min[b] = i == body->begin ? model->wall_position[i] : sb_min(s->min[b], model->wall_position[i]);
             s->max[b] = i == body->begin ? model->wall_position[i] : sb_max(s->max[b], model->wall_position[i]);
         }

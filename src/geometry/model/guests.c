@@ -17,11 +17,6 @@ typedef struct boxes {
     sb_vec3 *corner; /* 2 count */
 } boxes;
 
-static bool is_static(const sb_model_body *body)
-{
-    return body->wavemaker < 0;
-}
-
 /* The difference of two coordinates, or of one and the nearest image of the other. */
 static double nearest_image(const sb_walls_part *p, int axis, double difference)
 {
@@ -59,7 +54,7 @@ static int find_boxes(const sb_walls_part *p, boxes *around)
     if (!around->corner) return -1;
     for (size_t b = 0; b < model->body_count; ++b) {
         const sb_model_body *body = &model->bodies[b];
-        if (is_static(body) || body->count == 0) continue;
+        if (sb_body_is_static(body) || body->count == 0) continue;
         sb_vec3 *corner = around->corner + 2 * around->count++;
         sb_model_shared_box(p->scene, model, body, &corner[0], &corner[1]);
     }
@@ -78,7 +73,7 @@ static int invite(const sb_walls_part *p, const boxes *around, guest **list, siz
         wanted[i] = model->walls.of[i] == SB_WALL_OWN && is_wanted(p, around, model->wall_position[i]);
     for (size_t b = 0; b < model->body_count && !failed; ++b) {
         const sb_model_body *body = &model->bodies[b];
-        for (size_t i = body->begin; i < body->begin + body->count && is_static(body) && !failed; ++i) {
+        for (size_t i = body->begin; i < body->begin + body->count && sb_body_is_static(body) && !failed; ++i) {
             if (!wanted[i]) continue;
             failed = sb_grow((void **)list, &capacity, *count + 1, sizeof **list);
             if (!failed)

@@ -12,6 +12,12 @@ sb_status sb_model_build_for(const sb_scene *scene, sb_model_need *need, sb_mode
     return sb_model_build_part(scene, need, &(sb_model_team){.ranks = NULL}, model, error);
 }
 
+sb_status sb_model_failure(sb_status own, sb_error *error)
+{
+    if (own == SB_OK || !sb_stop_signal()) return own;
+    return sb_stop_fail(error, "while the model was built: nothing is computed yet");
+}
+
 sb_status sb_model_build_part(const sb_scene *scene, sb_model_need *need, const sb_model_team *team, sb_model *model,
                               sb_error *error)
 {
@@ -37,8 +43,7 @@ sb_status sb_model_build_part(const sb_scene *scene, sb_model_need *need, const 
     sb_model_space_free(&space);
     if (status != SB_OK) {
         sb_model_free(&made);
-        /* The stop replaces any error that a stage reported because of it. */
-        return sb_stop_signal() ? sb_stop_fail(error, "while the model was built: nothing is computed yet") : status;
+        return sb_model_failure(status, error);
     }
     *model = made;
     return SB_OK;

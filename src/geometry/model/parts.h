@@ -157,6 +157,9 @@ static inline bool sb_box_contains(sb_vec3 min, sb_vec3 max, sb_vec3 at)
    more memory than may be planned with (see sb_model_build_for). */
 sb_status sb_model_room(const sb_scene *scene, const sb_model *bodies, sb_model_need *need, sb_error *error);
 
+/* model.c: the failure of a stage; a stop of the program replaces one that a stage reported because of it. */
+sb_status sb_model_failure(sb_status own, sb_error *error);
+
 /* data.c: adds a warning. SB_FAILED without memory. */
 sb_status sb_model_warn(sb_model *model, sb_error *error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

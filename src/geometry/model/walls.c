@@ -4,7 +4,6 @@
 #include "geometry/model/walls.h"
 #include "base/hash.h"
 #include "base/memory.h"
-#include "base/stop.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -16,11 +15,6 @@ bool sb_model_divides_walls(const sb_scene *scene)
     /* What depends on a particle is nearer than a slab: a surface behind it, and what that has before it. */
     const double reach = 2 * (n->support + 1) + 4 * n->wall_offset;
     return !scene->foam.enabled && n->walls != SB_WALLS_DYNAMIC && reach <= SB_SAMPLE_SLAB * n->wall_spacing;
-}
-
-static bool is_static(const sb_model_body *body)
-{
-    return body->wavemaker < 0;
 }
 
 /* ---- equal bodies ---- */
@@ -74,7 +68,7 @@ static sb_status sample(sb_walls_part *p, const sb_model_surfaces *surfaces, sb_
     for (size_t b = 0; b < model->body_count; ++b) {
         const sb_model_body *body = &model->bodies[b];
         for (size_t i = body->begin; i < body->begin + body->count; ++i) {
-            const bool own = !is_static(body) || (p->slab[i] >= from && p->slab[i] < to);
+            const bool own = !sb_body_is_static(body) || (p->slab[i] >= from && p->slab[i] < to);
             model->walls.of[i] = own ? SB_WALL_OWN : SB_WALL_BESIDE;
         }
     }
@@ -122,7 +116,8 @@ static void know_extent(const sb_walls_part *p, sb_model_body *body)
         high = sb_max(high, model->wall_position[i]);
     }
     const double own[6] = {-low.x, -low.y, -low.z, high.x, high.y, high.z};
-    for (int k = 0; k < 6; ++k) highest[k] = is_static(body) ? sb_ranks_largest(p->team->ranks, own[k]) : own[k];
+    for (int k = 0; k < 6; ++k)
+        highest[k] = sb_body_is_static(body) ? sb_ranks_largest(p->team->ranks, own[k]) : own[k];
     body->low = sb_vec(-highest[0], -highest[1], -highest[2]);
     body->high = sb_vec(highest[3], highest[4], highest[5]);
 }
@@ -135,18 +130,18 @@ static void know_all(sb_walls_part *p)
     const size_t bodies = model->body_count;
     for (size_t b = 0; b < bodies; ++b) {
         const sb_model_body *body = &model->bodies[b];
-        for (size_t i = body->begin; i < body->begin + body->count && is_static(body); ++i)
+        for (size_t i = body->begin; i < body->begin + body->count && sb_body_is_static(body); ++i)
             p->counts[b] += model->walls.of[i] == SB_WALL_OWN;
-        if (is_static(body)) p->counts[bodies] += hash_body(model, b);
+        if (sb_body_is_static(body)) p->counts[bodies] += hash_body(model, b);
     }
     sb_ranks_add(p->team->ranks, p->counts, bodies + 1);
     model->walls.hash = p->counts[bodies];
     model->wall_count = 0;
     for (size_t b = 0; b < bodies; ++b) {
         sb_model_body *body = &model->bodies[b];
-        body->all = is_static(body) ? p->counts[b] : body->count;
+        body->all = sb_body_is_static(body) ? p->counts[b] : body->count;
         model->wall_count += body->all;
-        if (!is_static(body)) model->walls.hash += hash_body(model, b);
+        if (!sb_body_is_static(body)) model->walls.hash += hash_body(model, b);
         if (body->all > 0) know_extent(p, body);
     }
 }
@@ -170,10 +165,7 @@ sb_status sb_model_sample_part(const sb_scene *scene, const sb_model_team *team,
 
 sb_status sb_team_agree(const sb_model_team *team, sb_status own, sb_error *error)
 {
-    /* The stop replaces any failure that a stage reported because of it. */
-    if (own != SB_OK && sb_stop_signal())
-        own = sb_stop_fail(error, "while the model was built: nothing is computed yet");
-    return team->agree(team->ranks, own, error);
+    return team->agree(team->ranks, sb_model_failure(own, error), error);
 }
 
 sb_status sb_team_collect(const sb_model_team *team, sb_status before, void *own, size_t count, size_t size, void **all,

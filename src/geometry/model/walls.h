@@ -4,6 +4,12 @@
 
 #include "geometry/model/parts.h"
 
+/* Whether a body's boundary particles are divided among ranks: those of moving bodies are whole in each. */
+static inline bool sb_body_is_static(const sb_model_body *body)
+{
+    return body->wavemaker < 0;
+}
+
 /* The surfaces that are sampled. The sources are owned; their meshes and solids are the space's or those of
    `wholes`. */
 typedef struct sb_model_surfaces {
