@@ -22,14 +22,13 @@ void sb_check_terrain_text(const sb_model *model)
 
 void sb_check_bed_text(const sb_scene *scene, const sb_offshore_told_list *told)
 {
-    const bool own = scene->offshore.terrain_count > 0;
-    if (own)
+    if (scene->offshore.terrain_count > 0)
         printf(
             "  bed                read at the centres of cells of %g m, linear between the nodes of offshore.terrain; "
             "later grids cover earlier ones\n",
             scene->offshore.cell);
     for (size_t i = 0; i < told->count; i++) {
-        printf(own ? "  %s\n" : "  terrain \"%s\"\n", told->items[i].name);
+        printf(told->items[i].is_key ? "  %s\n" : "  terrain \"%s\"\n", told->items[i].name);
         print_lines(told->items[i].text);
     }
 }

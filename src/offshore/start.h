@@ -7,7 +7,8 @@
 
 /* What `check` tells of a grid that is part of the bed. */
 typedef struct sb_offshore_told {
-    char name[SB_NAME_MAX]; /* offshore.terrain[0], or that of a body */
+    char name[SB_NAME_MAX]; /* offshore.terrain[0], offshore.uplift, or that of a body */
+    bool is_key;            /* the name is a key of the scene */
     char *text;             /* lines */
 } sb_offshore_told;
 

@@ -123,6 +123,8 @@ static void check_reports(void **state)
                     "  offshore.terrain[0]\n    deep.xyz: no coordinate system, taken as metres; 2 x 2 nodes, ");
     assert_contains(text.out, "  offshore.terrain[1]\n    hill.xyz: ");
     assert_contains(text.out, "; from (50, 10) to (70, 30) m; heights 1 to 1 m, of which datum +1 m; no voids\n");
+    assert_contains(text.out, "  offshore.uplift\n    hump.xyz: ");
+    assert_contains(text.out, "; from (-10, -10) to (20, 50) m; heights 2 to 2 m; no voids\n");
     outcome_free(&text);
     outcome json = RUN(0, "check", "basin.yaml", "--json");
     assert_contains(json.out, "\"wet_cells\": 700");
@@ -135,6 +137,7 @@ static void check_reports(void **state)
     assert_contains(bodies.out,
                     "  terrain \"sea\"\n    deep.xyz: no coordinate system, taken as metres; 2 x 2 nodes, ");
     assert_null(strstr(bodies.out, "offshore.terrain"));
+    assert_contains(bodies.out, "  offshore.uplift\n    hump.xyz: ");
     outcome_free(&bodies);
 }
 
@@ -154,6 +157,10 @@ static void bad_input_is_one_line(void **state)
     write_text("degrees.asc", "ncols 3\nnrows 2\nxllcorner 141\nyllcorner 37\ncellsize 0.001\n-9 -9 -9\n-9 -9 -9\n");
     refuse("these look like longitudes and latitudes", "offshore.terrain=[{file: degrees.asc}]");
     refuse("the key shift of a grid moves it", "offshore.terrain=[{file: small.xyz, shift: [900, 0]}]");
+    write_grid("far.xyz", 900, 950, -10, 50, 2);
+    refuse("offshore.uplift: its grid lies from (900, -10) to (950, 50), and covers no cell of the model",
+           "offshore.uplift={file: far.xyz}");
+    refuse("these look like longitudes and latitudes", "offshore.uplift={file: degrees.asc}");
     refuse("is below the whole bed", "offshore.level=-50");
     refuse("expected a whole number", "offshore.cell=3");
     refuse("does not apply here", "resolution=1");

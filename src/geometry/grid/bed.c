@@ -89,7 +89,6 @@ static sb_status keep_told(const char *name, sb_mesh *mesh, sb_offshore_told_lis
     return SB_OK;
 }
 
-/* told: NULL: not wanted. */
 static sb_status draw_body(raster *r, const sb_body *body, sb_offshore_told_list *told, sb_error *error)
 {
     sb_mesh *meshes = NULL;
@@ -102,7 +101,7 @@ static sb_status draw_body(raster *r, const sb_body *body, sb_offshore_told_list
             const uint32_t *corner = meshes[m].triangles[t];
             draw(r, v[corner[0]], v[corner[1]], v[corner[2]]);
         }
-        if (told && status == SB_OK) status = keep_told(body->name, &meshes[m], told, error);
+        if (status == SB_OK) status = keep_told(body->name, &meshes[m], told, error);
         sb_mesh_free(&meshes[m]);
     }
     sb_free(meshes);
@@ -121,7 +120,10 @@ static sb_status draw_grid(raster *r, const sb_offshore_grid *grid, const char *
                     .voids = SB_VOIDS_SHOW,
                     .translate = sb_vec(grid->x, grid->y, 0)};
     snprintf(body.name, sizeof body.name, "%s", key);
-    return draw_body(r, &body, told, error);
+    const size_t first = told->count;
+    const sb_status status = draw_body(r, &body, told, error);
+    for (size_t k = first; k < told->count; k++) told->items[k].is_key = true;
+    return status;
 }
 
 static void clear(const raster *r)
@@ -183,13 +185,27 @@ sb_status sb_bed_fill(const sb_scene *scene, sb_offshore_start *start, sb_error 
     return status;
 }
 
-sb_status sb_uplift_fill(const sb_scene *scene, double *uplift, sb_error *error)
+/* Fails when the uplift lies beside the model, where it would raise nothing. */
+static sb_status check_reached(const raster *r, sb_error *error)
 {
-    raster r = raster_of(scene, uplift);
+    for (size_t k = 0; k < r->columns * r->rows; k++)
+        if (!isnan(r->height[k])) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT,
+                   "offshore.uplift: its grid lies from (%.9g, %.9g) to (%.9g, %.9g), and covers no cell of the model; "
+                   "expected a grid within offshore.min and max%s",
+                   r->min[0], r->min[1], r->max[0], r->max[1], remedy(r));
+}
+
+sb_status sb_uplift_fill(const sb_scene *scene, sb_offshore_start *start, sb_error *error)
+{
+    raster r = raster_of(scene, start->depth);
     sb_status status = SB_OK;
     clear(&r);
-    if (scene->offshore.has_uplift) status = draw_grid(&r, &scene->offshore.uplift, "offshore.uplift", NULL, error);
+    if (scene->offshore.has_uplift) {
+        status = draw_grid(&r, &scene->offshore.uplift, "offshore.uplift", &start->told, error);
+        if (status == SB_OK) status = check_reached(&r, error);
+    }
     for (size_t k = 0; k < r.columns * r.rows; k++)
-        if (isnan(uplift[k])) uplift[k] = 0;
+        if (isnan(r.height[k])) r.height[k] = 0;
     return status;
 }

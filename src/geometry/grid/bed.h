@@ -15,7 +15,9 @@ size_t sb_bed_rows(const sb_scene *scene);
    grids state; the caller frees it also on error. */
 sb_status sb_bed_fill(const sb_scene *scene, sb_offshore_start *start, sb_error *error);
 
-/* Fills the heights of offshore.uplift in the same way; 0 where the file has none, and everywhere without an uplift. */
-sb_status sb_uplift_fill(const sb_scene *scene, double *uplift, sb_error *error);
+/* Fills start->depth, which has room for the cells, with offshore.uplift in the same way, in m: 0 where its grid has no
+   height, and everywhere without an uplift. SB_BAD_INPUT names a file that cannot be read, or that covers no cell.
+   Appends what the grid states to start->told. */
+sb_status sb_uplift_fill(const sb_scene *scene, sb_offshore_start *start, sb_error *error);
 
 #endif

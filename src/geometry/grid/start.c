@@ -29,7 +29,7 @@ sb_status sb_grid_start_fill(const sb_scene *scene, sb_offshore_start *start, sb
     made.hu = sb_alloc(cells, sizeof *made.hu);
     status = made.bed && made.depth && made.hu ? SB_OK : sb_fail_memory(error, "the bed of offshore");
     if (status == SB_OK) status = sb_bed_fill(scene, &made, error);
-    if (status == SB_OK) status = sb_uplift_fill(scene, made.depth, error);
+    if (status == SB_OK) status = sb_uplift_fill(scene, &made, error);
     if (status == SB_OK) status = sb_offshore_start_water(scene, &made, error);
     if (status != SB_OK) {
         sb_offshore_start_free(&made);

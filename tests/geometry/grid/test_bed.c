@@ -47,15 +47,15 @@ static void a_flat_floor(void **state)
     (void)state;
     sb_scene scene = scene_of(NULL, 0);
     scene.dimensions = 2;
-    double bed[20];
-    sb_offshore_start start = {.bed = bed};
+    double bed[20], depth[20];
+    sb_offshore_start start = {.bed = bed, .depth = depth};
     sb_error error = {0};
     assert_int_equal(sb_bed_rows(&scene), 1);
     assert_int_equal(sb_bed_fill(&scene, &start, &error), SB_OK);
     for (size_t k = 0; k < 20; k++) assert_near(bed[k], -5, 0);
     assert_int_equal(start.uncovered, 0);
-    assert_int_equal(sb_uplift_fill(&scene, bed, &error), SB_OK);
-    for (size_t k = 0; k < 20; k++) assert_near(bed[k], 0, 0);
+    assert_int_equal(sb_uplift_fill(&scene, &start, &error), SB_OK);
+    for (size_t k = 0; k < 20; k++) assert_near(depth[k], 0, 0);
 }
 
 int main(void)
