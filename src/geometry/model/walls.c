@@ -105,21 +105,27 @@ static uint64_t hash_body(const sb_model *model, size_t body)
     return hash;
 }
 
-/* Finds the extent of a static body's boundary particles of all ranks. */
+/* Finds the extent of a body's boundary particles of all ranks. */
 static void know_extent(const sb_walls_part *p, sb_model_body *body)
 {
+    typedef struct extent {
+        sb_vec3 low, high;
+    } extent;
     const sb_model *model = p->model;
-    double highest[6];
-    sb_vec3 low = {(double)INFINITY, (double)INFINITY, (double)INFINITY}, high = sb_scale(low, -1);
+    const sb_vec3 above = {(double)INFINITY, (double)INFINITY, (double)INFINITY};
+    extent own = {above, sb_scale(above, -1)}, all[SB_RANKS_MAX];
     for (size_t i = body->begin; i < body->begin + body->count; ++i) {
-        low = sb_min(low, model->wall_position[i]);
-        high = sb_max(high, model->wall_position[i]);
+        own.low = sb_min(own.low, model->wall_position[i]);
+        own.high = sb_max(own.high, model->wall_position[i]);
     }
-    const double own[6] = {-low.x, -low.y, -low.z, high.x, high.y, high.z};
-    for (int k = 0; k < 6; ++k)
-        highest[k] = sb_body_is_static(body) ? sb_ranks_largest(p->team->ranks, own[k]) : own[k];
-    body->low = sb_vec(-highest[0], -highest[1], -highest[2]);
-    body->high = sb_vec(highest[3], highest[4], highest[5]);
+    body->low = own.low;
+    body->high = own.high;
+    if (!sb_body_is_static(body)) return;
+    sb_ranks_gather(p->team->ranks, &own, sizeof own, all);
+    for (int r = 0; r < sb_ranks_count(p->team->ranks); ++r) {
+        body->low = sb_min(body->low, all[r].low);
+        body->high = sb_max(body->high, all[r].high);
+    }
 }
 
 /* Counts and hashes the boundary particles of all ranks, and finds their extent. Those of moving bodies are whole in

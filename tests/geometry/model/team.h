@@ -3,6 +3,7 @@
 #define SB_TESTS_TEAM_H
 
 #include "base/agree.h"
+#include "base/memory.h"
 #include "base/ranks_threads.h"
 #include "small_model.h"
 
@@ -15,6 +16,7 @@ typedef struct team {
     const sb_model_place *places;
     size_t place_count;
     sb_model_need *need; /* of rank 0 */
+    long fail_at;        /* the allocation that fails, of all ranks, from the start of rank 1; 0: none */
     sb_status status[TEAM_MAX];
     sb_error error[TEAM_MAX];
     sb_model part[TEAM_MAX];
@@ -26,6 +28,7 @@ static void team_work(sb_ranks *ranks, void *context)
     const int rank = sb_ranks_own(ranks);
     const sb_model_team together = {
         .ranks = ranks, .agree = sb_ranks_agree, .places = t->places, .place_count = t->place_count};
+    if (rank == 1 && t->fail_at) sb_memory_fail_at(t->fail_at);
     t->status[rank] = sb_model_build_part(rank == 1 && t->other ? t->other : &scene, rank == 0 ? t->need : NULL,
                                           &together, &t->part[rank], &t->error[rank]);
 }

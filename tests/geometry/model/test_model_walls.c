@@ -258,11 +258,42 @@ static void a_failure_is_that_of_all(void **state)
     team_free(&t);
 }
 
+/* An allocation that fails in one rank, wherever it is, ends the building with its reason, and makes no rank wait for
+   ever. The step is a prime, so that all parts of the building are met in turn. */
+static void a_failed_allocation_ends_all(void **state)
+{
+    (void)state;
+    flume();
+    size_t failures = 0, common = 0;
+    for (long n = 1;; n += 101) {
+        team t = {.ranks = 3, .fail_at = n};
+        team_build(&t);
+        const bool pending = sb_memory_fail_pending();
+        sb_memory_fail_at(0);
+        int failed = 0;
+        for (int r = 0; r < 3; r++) {
+            failed += t.status[r] != SB_OK;
+            if (t.status[r] != SB_OK) assert_non_null(strstr(t.error[r].text, "memory"));
+        }
+        team_free(&t);
+        if (pending) {
+            assert_int_equal(failed, 0);
+            break;
+        }
+        assert_in_range(failed, 1, 3);
+        failures++;
+        common += failed == 3;
+    }
+    printf("%zu failures, %zu of all ranks\n", failures, common);
+    assert_in_range(failures, 10, 10000);
+    assert_true(common > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         CASE(walls_are_sampled_in_parts), CASE(other_flumes_too),         CASE(some_scenes_keep_them_whole),
-        CASE(unequal_bodies_are_refused), CASE(a_failure_is_that_of_all),
+        CASE(unequal_bodies_are_refused), CASE(a_failure_is_that_of_all), CASE(a_failed_allocation_ends_all),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
