@@ -10,7 +10,7 @@ static const char inputs[] =
     "in vec2 screen;\n"
     "out vec4 color;\n"
     "uniform sampler2D body_colors, normals, depths, surface, cover, colors, shade, reached, occlusion, deep_colors;\n"
-    "uniform vec2 clip;\n"
+    "uniform vec2 clip, side_min, side_max;\n"
     "uniform float solid, shade_bias, wet, painted, loaded, depth_max, clarity, thickest, sea_level, pixels;\n"
     "ivec2 pixel() { return ivec2(gl_FragCoord.xy); }\n"
     "float depth_at(ivec2 p) { return clip.y / (2.0 * texelFetch(depths, p, 0).x - 1.0 - clip.x); }\n"
@@ -36,13 +36,17 @@ static const char foam[] = "#ifdef FOAM\n"
 
 /* Colour of a body: wet where the water has been, and with the greatest depth. A body that moves has no place where the
    water has been, and colours of loads stay those of their legend: of the kinds in c.a (render/meshes.h), the first
-   limit is below bodies that rest, the second below terrain. */
+   limit is below bodies that rest, the second below terrain. A wall that looks out of the domain has no water before
+   it: the map has that of the cell inside. */
 static const char body[] =
     "vec3 albedo_of(ivec2 p, vec3 place, vec3 n) {\n"
     "  vec4 c = texelFetch(body_colors, p, 0);\n"
     "  vec3 albedo = c.rgb * c.rgb;\n"
     "#ifdef REACHED\n"
     "  if (c.a < (loaded > 0.5 ? 0.75 : 0.42)) return albedo;\n"
+    "  vec2 out_of_wall = n.xy * (1.5 / (512.0 * ground_frame.z)), front = place.xy + out_of_wall;\n"
+    "  bool is_wall = abs(n.z) < 0.5;\n"
+    "  if (is_wall && (any(lessThan(front, side_min)) || any(greaterThan(front, side_max)))) return albedo;\n"
     "  vec2 at = (place.xy - ground_frame.xy) * ground_frame.z;\n"
     "  at += n.xy * (1.0 - abs(n.z)) * 1.2 / vec2(textureSize(reached, 0));\n"
     "  float was = above(reached, at, place.z);\n"
@@ -50,10 +54,8 @@ static const char body[] =
     "  if (painted > 0.5 && place.z > sea_level) {\n"
     "    float top = texture(reached, at).x, foot = place.z;\n"
     /* A wall shows the depth before it, from its foot or from the still water up. */
-    "    if (abs(n.z) < 0.5) {\n"
-    "      vec2 out_of_wall = n.xy * (1.5 / (512.0 * ground_frame.z));\n"
-    "      foot = max(texture(ground_map, (place.xy + out_of_wall - ground_frame.xy) * ground_frame.z).x, sea_level);\n"
-    "    }\n"
+    "    if (is_wall)\n"
+    "      foot = max(texture(ground_map, (front - ground_frame.xy) * ground_frame.z).x, sea_level);\n"
     "    float t = clamp((top - min(foot, place.z)) / depth_max, 0.0, 1.0);\n"
     "    vec3 paint = texture(deep_colors, vec2(t, 0.5)).rgb;\n"
     "    albedo = mix(albedo, paint * paint, 0.75 * was);\n"
@@ -246,6 +248,22 @@ static void bind_textures(const sb_compose *compose, const sb_parts *parts, GLui
     if (parts->foam) sb_uniform_texture(program, "foam", 12, parts->foam);
 }
 
+/* The domain's sides, m from the light's origin. */
+static void bind_sides(const sb_light *light, GLuint program)
+{
+    const sb_ground *ground = &light->solid;
+    const double far = 1e30;
+    if (ground->sided) {
+        sb_uniform_vec2(program, "side_min", ground->side_min[0] - light->origin.x,
+                        ground->side_min[1] - light->origin.y);
+        sb_uniform_vec2(program, "side_max", ground->side_max[0] - light->origin.x,
+                        ground->side_max[1] - light->origin.y);
+    } else {
+        sb_uniform_vec2(program, "side_min", -far, -far);
+        sb_uniform_vec2(program, "side_max", far, far);
+    }
+}
+
 static void draw_pass(const sb_compose *compose, const sb_parts *parts, const sb_view *view, int pass, double depth)
 {
     const GLuint program = compose->programs[pass];
@@ -253,6 +271,7 @@ static void draw_pass(const sb_compose *compose, const sb_parts *parts, const sb
     sb_gl.UseProgram(program);
     sb_light_bind(light, view, program);
     bind_textures(compose, parts, program);
+    bind_sides(light, program);
     sb_uniform_float(program, "depth", 2 * depth - 1);
     sb_uniform_vec2(program, "clip", (double)-view->projection[10], (double)view->projection[14]);
     sb_uniform_float(program, "pixels", parts->scenery->height / (2 * view->tangent));

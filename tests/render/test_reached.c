@@ -173,6 +173,26 @@ static void loads_are_not_painted_over(void **state)
     clear_stage(&stage);
 }
 
+/* The outer sides of the ground at the domain's sides have no water before them, although the map has some at their
+   edge. */
+static void sides_of_the_domain_are_not_painted(void **state)
+{
+    (void)state;
+    struct stage stage;
+    set_stage(&stage, sb_vec(-40, 0, -1));
+    stage.key.target = sb_vec(-20, 0, -1);
+    stage.scene.dimensions = 3;
+    stage.scene.render.greatest_depth = stage.scene.render.wet_ground = true;
+    sb_image dry = after(&stage, water(1, sb_vec(-20, -5, 0), 0, 0, 0));
+    sb_image wet = after(&stage, water(1, sb_vec(-20.2, -5, 0), 20, 20, 8));
+    const int edge = HEIGHT / 2 - (int)(HEIGHT / 2 / (20 * 0.57735)); /* of the side, 1 m above the picture's middle */
+    for (int y = edge + 2; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) assert_int_equal(differ(&wet, &dry, x, y), 0);
+    sb_image_free(&dry);
+    sb_image_free(&wet);
+    clear_stage(&stage);
+}
+
 /* A body that moves has no place where the water has been. */
 static void bodies_that_move_are_not_painted(void **state)
 {
@@ -359,9 +379,10 @@ static void a_wrong_highest_water_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(walls_show_the_greatest_depth),    cmocka_unit_test(loads_are_not_painted_over),
-        cmocka_unit_test(bodies_that_move_are_not_painted), cmocka_unit_test(tracks_of_particles_leave_no_streaks),
-        cmocka_unit_test(oblique_tracks_leave_no_streaks),  cmocka_unit_test(water_of_two_dimensions_wets),
-        cmocka_unit_test(the_highest_water_is_handed_on),   cmocka_unit_test(a_wrong_highest_water_is_refused)};
+        cmocka_unit_test(walls_show_the_greatest_depth),        cmocka_unit_test(loads_are_not_painted_over),
+        cmocka_unit_test(sides_of_the_domain_are_not_painted),  cmocka_unit_test(bodies_that_move_are_not_painted),
+        cmocka_unit_test(tracks_of_particles_leave_no_streaks), cmocka_unit_test(oblique_tracks_leave_no_streaks),
+        cmocka_unit_test(water_of_two_dimensions_wets),         cmocka_unit_test(the_highest_water_is_handed_on),
+        cmocka_unit_test(a_wrong_highest_water_is_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
