@@ -13,6 +13,7 @@ typedef struct sb_shot {
     sb_vec3 min, max; /* m, scene: what is drawn */
     double range[2];  /* of the water's colours */
     double load_max;  /* Pa, of the bodies' colours; 0: they show no loads */
+    double paint_max; /* m, of the greatest depth painted on them and on the ground; 0: none is */
 } sb_shot;
 
 /* Draws title, time, legends, scale bar and arrow to the north, as the scene says. job: of the camera's slice, NULL

@@ -190,6 +190,12 @@ static void draw_edges(const sb_renderer *r, const sb_frame *frame, const sb_sce
     sb_meshes_draw_edges(r->meshes, view, frame, &water);
 }
 
+/* m, greatest depth at the upper end of its colours. */
+static double paint_max(const sb_renderer *r)
+{
+    return r->depth > 0 ? 0.5 * r->depth : 1;
+}
+
 static void draw_picture(sb_renderer *r, const sb_frame *frame, const sb_scenery *scenery, const float *kinds,
                          const sb_camera *camera, const sb_view *view)
 {
@@ -210,7 +216,7 @@ static void draw_picture(sb_renderer *r, const sb_frame *frame, const sb_scenery
                             .wet = settings->wet_ground,
                             .painted = settings->greatest_depth,
                             .loaded = settings->loads,
-                            .depth_max = r->depth > 0 ? 0.5 * r->depth : 1,
+                            .depth_max = paint_max(r),
                             .thickest = SB_SURFEL_THICKEST * frame->spacing,
                             .map = sb_fields[camera->color].map};
     sb_gl.BindFramebuffer(GL_FRAMEBUFFER, r->framebuffer);
@@ -281,6 +287,7 @@ static sb_shot shot_of(const sb_renderer *r, const sb_frame *frame, size_t numbe
     shot.max = sb_add(r->max, sb_vec(margin, margin, margin));
     shot.view = sb_view_create(&shot.key, (double)r->width / r->height, shot.min, shot.max);
     shot.load_max = r->scene->render.loads ? load_max(r) : 0;
+    shot.paint_max = r->scene->render.greatest_depth ? paint_max(r) : 0;
     if (is_sliced(camera)) sb_slice_cut(&camera->slice, &shot.view);
     find_range(r, camera->color, camera->color_min, camera->color_max, shot.range);
     return shot;

@@ -2,6 +2,7 @@
 #include "box.h"
 
 #include "base/memory.h"
+#include "render/overlay.h"
 #include "render/renderer.h"
 
 #include <math.h>
@@ -151,6 +152,29 @@ static int count_changes(const sb_image *a, const sb_image *b)
 
 /* Row of the ground 16 m before the camera of the level picture. */
 enum { ON_GROUND = 119 };
+
+/* The colours of the greatest depth have a legend of their own above that of the water. */
+static void painted_depths_have_a_legend(void **state)
+{
+    (void)state;
+    struct stage stage;
+    sb_image image[2];
+    set_stage(&stage, sb_vec(-20, 0, 3));
+    stage.scene.render.width = 1280;
+    stage.scene.render.height = 720; /* smaller pictures may have no legends */
+    for (int with = 0; with < 2; with++) {
+        stage.scene.render.greatest_depth = with;
+        image[with] = after(&stage, water(1, sb_vec(-8, -5, 0), 0, 0, 0));
+    }
+    int changes = 0;
+    for (int y = 720 - 84 - SB_OVERLAY_SLOT; y < 720 - 84; y++)
+        for (int x = 934; x < 1260; x++) changes += differ(&image[0], &image[1], x, y) > 0;
+    assert_true(changes > 10000); /* of the 20 212 of its plate */
+    for (int y = 720 - 84 + 1; y < 720; y++)
+        for (int x = 0; x < 1280; x++) assert_int_equal(differ(&image[0], &image[1], x, y), 0);
+    for (int with = 0; with < 2; with++) sb_image_free(&image[with]);
+    clear_stage(&stage);
+}
 
 /* While the colours of the wall are those of its loads, nothing else is painted on it; terrain is painted. */
 static void loads_are_not_painted_over(void **state)
@@ -379,10 +403,10 @@ static void a_wrong_highest_water_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(walls_show_the_greatest_depth),        cmocka_unit_test(loads_are_not_painted_over),
-        cmocka_unit_test(sides_of_the_domain_are_not_painted),  cmocka_unit_test(bodies_that_move_are_not_painted),
-        cmocka_unit_test(tracks_of_particles_leave_no_streaks), cmocka_unit_test(oblique_tracks_leave_no_streaks),
-        cmocka_unit_test(water_of_two_dimensions_wets),         cmocka_unit_test(the_highest_water_is_handed_on),
-        cmocka_unit_test(a_wrong_highest_water_is_refused)};
+        cmocka_unit_test(painted_depths_have_a_legend),     cmocka_unit_test(walls_show_the_greatest_depth),
+        cmocka_unit_test(loads_are_not_painted_over),       cmocka_unit_test(sides_of_the_domain_are_not_painted),
+        cmocka_unit_test(bodies_that_move_are_not_painted), cmocka_unit_test(tracks_of_particles_leave_no_streaks),
+        cmocka_unit_test(oblique_tracks_leave_no_streaks),  cmocka_unit_test(water_of_two_dimensions_wets),
+        cmocka_unit_test(the_highest_water_is_handed_on),   cmocka_unit_test(a_wrong_highest_water_is_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
