@@ -14,8 +14,8 @@ static chromium *open_page(int width, int height, bool phone)
 {
     char url[SB_PATH_MAX + 8];
     static const char *const names[] = {"low", "<img src=x onerror=hacked=1>"};
-    make_run_of((made_run){.name = names[0], .seed = 1, .wall = 0.5, .factor = 2});
-    make_run_of((made_run){.name = names[1], .seed = 1, .wall = 1.5, .factor = 1});
+    make_run_of((made_run){.name = names[0], .seed = 1, .wall = 0.5, .factor = 14});
+    make_run_of((made_run){.name = names[1], .seed = 1, .wall = 1.5, .factor = 7});
     assert_int_equal(compare_runs(names, 2, NULL, NULL), SB_OK);
     chromium *browser = chromium_start(width, height);
     if (phone) chromium_resize(browser, width, height, true);
@@ -39,10 +39,12 @@ static void one_body_at_a_time(void **state)
     chromium_true(browser, "(() => { const s = document.querySelector('#loads select'); s.value = 1;"
                            " s.dispatchEvent(new Event('change')); })()");
     chromium_await(browser, "shorebreakReport.plots[0].visible.map(Number).join('') === '0011'", 5);
+    /* The greatest force is 700 N here, and 1400 N on barn. */
+    chromium_await(browser, "document.querySelector('#loads .unit').textContent === 'house: Horizontal force, N'", 5);
     /* The choice stays when another quantity is shown, and so does the colour of a run. */
     chromium_true(browser, "(() => { const s = document.querySelectorAll('#loads select')[1]; s.value = 4;"
                            " s.dispatchEvent(new Event('change')); })()");
-    chromium_await(browser, "document.querySelector('#loads .unit').textContent === 'house: Overturning moment, N m'",
+    chromium_await(browser, "document.querySelector('#loads .unit').textContent === 'house: Overturning moment, kN m'",
                    5);
     assert_true(chromium_true(browser, "shorebreakReport.plots[0].visible.map(Number).join('') === '0011'"));
     assert_true(chromium_true(browser, "shorebreakReport.plots[0].colour(0) === shorebreakReport.plots[0].colour(2)"));

@@ -121,7 +121,10 @@
     show(v) {
       const [name, unit, view] = this.views[v];
       let joined = join(this.series, view), most = 0;
-      for (const row of joined) for (let k = 1; k < row.length; k++) if (Math.abs(row[k]) > most) most = Math.abs(row[k]);
+      // The unit is that of the chosen item, not that of a larger one that is not shown.
+      const counts = (k) => !this.items || this.about.items[k] === this.item;
+      for (const row of joined)
+        for (let k = 1; k < row.length; k++) if (counts(k - 1) && Math.abs(row[k]) > most) most = Math.abs(row[k]);
       const [factor, named] = prefix(unit, most);
       if (factor !== 1) joined = joined.map((row) => row.map((value, k) => (k === 0 || value === null ? value : value * factor)));
       const per = this.flat && /^(N|m³)/.test(unit) ? ' per metre of width' : '';
