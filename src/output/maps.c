@@ -8,7 +8,7 @@ const sb_map_row sb_map_rows[] = {
      "0 '#ffffff', 0.02 '#deebf7', 0.4 '#6baed6', 1 '#08306b'", true},
     {"max_speed", "grid_max_speed", offsetof(sb_map_record, speed), "greatest speed (m/s)",
      "0 '#ffffe5', 0.5 '#fe9929', 1 '#662506'", true},
-    {"max_momentum_flux", "grid_max_momentum_flux", offsetof(sb_map_record, flux), "greatest momentum flux (m^3/s^2)",
+    {"max_momentum_flux", "grid_max_momentum_flux", offsetof(sb_map_record, flux), "greatest momentum flux (m³/s²)",
      "0 '#fff7f3', 0.5 '#f768a1', 1 '#49006a'", true},
     {"arrival_time", "grid_arrival_time", offsetof(sb_map_record, arrival), "arrival time (s)",
      "0 '#440154', 0.5 '#21918c', 1 '#fde725'", false},
