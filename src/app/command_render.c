@@ -58,17 +58,6 @@ static sb_status choose_cameras(const sb_scene *scene, const sb_options *options
     return status;
 }
 
-static sb_status read_list(const char *run, const sb_particle_format *format, sb_particle_list *list, sb_error *error)
-{
-    char name[SB_PARTICLE_NAME_MAX], path[SB_PATH_MAX];
-    if (!format->read || !sb_particle_format_list(format, name))
-        return sb_fail(error, SB_BAD_INPUT,
-                       "%.500s: has no particle files that can be read; those of the format %s cannot", run,
-                       format->name);
-    sb_status status = sb_path_join(path, run, name, error);
-    return status == SB_OK ? format->read_list(path, list, error) : status;
-}
-
 static void warn(const char *text)
 {
     fprintf(stderr, "shorebreak: warning: %s\n", text);
@@ -135,7 +124,7 @@ static sb_status open_run(job *j, const sb_options *options, sb_error *error)
     if (status == SB_OK) status = sb_grid_refuse(&j->scene, "render", error);
     if (status == SB_OK) status = choose_cameras(&j->scene, options, &j->only, error);
     if (status == SB_OK && !asks_for_stills(options)) j->scene.render.still_count = 0;
-    return status == SB_OK ? read_list(j->source, j->format, &j->list, error) : status;
+    return status == SB_OK ? sb_particle_format_read_list(j->format, j->source, &j->list, error) : status;
 }
 
 static sb_status open_log(job *j, const sb_options *options, sb_error *error)

@@ -122,7 +122,7 @@ static sb_status look_at_meshes(job *j, sb_error *error)
 static sb_status open_run(job *j, sb_error *error)
 {
     const char *run = j->options->positional;
-    char path[PATHS], name[SB_PARTICLE_NAME_MAX];
+    char path[PATHS];
     sb_run_files files = {0};
     sb_scene scene = {0};
     sb_status status = sb_path_join(path, run, "scene.yaml", error);
@@ -139,12 +139,9 @@ static sb_status open_run(job *j, sb_error *error)
             "or use `shorebreak render`",
             run);
     j->particles = sb_particle_format_in(run);
-    if (status == SB_OK && (!j->particles->read || !sb_particle_format_list(j->particles, name)))
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: has no particle files that can be read", run);
-    if (status == SB_OK) status = sb_path_join(path, run, name, error);
-    if (status == SB_OK) status = j->particles->read_list(path, &j->list, error);
+    if (status == SB_OK) status = sb_particle_format_read_list(j->particles, run, &j->list, error);
     if (status == SB_OK && j->list.count == 0)
-        status = sb_fail(error, SB_BAD_INPUT, "%.500s: lists no particle files; set output.particle_interval", path);
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s: lists no particle files; set output.particle_interval", run);
     return status;
 }
 

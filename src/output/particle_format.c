@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -38,4 +39,19 @@ bool sb_particle_format_list(const sb_particle_format *format, char name[SB_PART
 {
     if (format->list_ending) snprintf(name, SB_PARTICLE_NAME_MAX, SB_PARTICLE_LIST "%s", format->list_ending);
     return format->list_ending;
+}
+
+sb_status sb_particle_format_read_list(const sb_particle_format *format, const char *folder, sb_particle_list *list,
+                                       sb_error *error)
+{
+    char name[SB_PARTICLE_NAME_MAX], path[SB_PATH_MAX];
+    if (!format->read || !sb_particle_format_list(format, name))
+        return sb_fail(error, SB_BAD_INPUT,
+                       "%.500s: has no particle files that can be read; those of the format %s cannot", folder,
+                       format->name);
+    sb_status status = sb_path_join(path, folder, name, error);
+    if (status == SB_OK && access(path, F_OK) != 0 && errno == ENOENT)
+        return sb_fail(error, SB_BAD_INPUT,
+                       "%.500s: the run has no particle files; expected one with output.particle_interval", folder);
+    return status == SB_OK ? format->read_list(path, list, error) : status;
 }

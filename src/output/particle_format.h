@@ -42,4 +42,8 @@ void sb_particle_format_file(const sb_particle_format *format, uint64_t number, 
 /* The path of the list below the run folder; false if the format has none. */
 bool sb_particle_format_list(const sb_particle_format *format, char name[SB_PARTICLE_NAME_MAX]);
 
+/* Reads the list of the particle files in a run folder. SB_BAD_INPUT: the format cannot be read, or there are none. */
+sb_status sb_particle_format_read_list(const sb_particle_format *format, const char *folder, sb_particle_list *list,
+                                       sb_error *error);
+
 #endif

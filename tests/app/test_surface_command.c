@@ -174,6 +174,9 @@ static void bad_input(void **state)
     RUN_AND_FORGET(0, "run", "tank2.yaml", "--out", "flat", "--quiet", "--until", "0.02");
     REFUSE("flat: is a run in two dimensions", "flat");
     assert_false(exists("flat/surface"));
+    RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "bare", "--quiet", "--until", "0.02", "--set",
+                   "output.particle_interval=0");
+    REFUSE("bare: the run has no particle files; expected one with output.particle_interval", "bare");
     RUN_AND_FORGET(0, "run", "tank3.yaml", "--out", "cut", "--quiet", "--until", "0.02", "--set", "render.interval=0");
     write_text("cut/particles/000001.vtp", "<?xml version=\"1.0\"?>\n");
     REFUSE("cut/particles/000001.vtp", "cut");
