@@ -104,10 +104,12 @@ static void put_bars(FILE *out, const sb_comparison *c)
             "<code>shorebreak compare</code>.",
             out);
     else
-        sb_html_put(out,
-                    "Values of several runs are means, with the least and the greatest value. A difference with ~ lies "
-                    "within them: it may be due to chance. %z of %z scenes have one run.",
-                    single, c->groups);
+        fputs("Values of several runs are means, with the least and the greatest value. A difference with ~ lies "
+              "within them: it may be due to chance.",
+              out);
+    if (single > 0 && single < c->groups)
+        sb_html_put(out, " Of %z scenes %z %s one run only, without error bars.", c->groups, single,
+                    single == 1 ? "has" : "have");
     fputs("</div></li>\n", out);
 }
 

@@ -156,6 +156,12 @@ static void seeds_are_error_bars(void **state)
     char *page = text_of("out/compare.html");
     assert_has(page, "50 to 75");
     assert_has(page, "7 runs of 3 scenes");
+    assert_null(strstr(page, "one run only"));
+    sb_free(page);
+    static const char *const some[] = {"a1", "a2", "b1"};
+    if (compare_runs(some, 3, NULL, &error) != SB_OK) fail_msg("%s", error.text);
+    page = text_of("out/compare.html");
+    assert_has(page, "Of 2 scenes 1 has one run only, without error bars.");
     sb_free(page);
     sb_free(csv);
     free(terminal);
