@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 size_t sb_bed_columns(const sb_scene *scene)
 {
@@ -121,7 +122,14 @@ static sb_status draw_grid(raster *r, const sb_offshore_grid *grid, const char *
                     .translate = sb_vec(grid->x, grid->y, 0)};
     snprintf(body.name, sizeof body.name, "%s", key);
     const size_t first = told->count;
-    const sb_status status = draw_body(r, &body, told, error);
+    sb_error reason = {0};
+    const sb_status status = draw_body(r, &body, told, &reason);
+    if (status != SB_OK) {
+        char prefix[80]; /* the scene has no such body */
+        const int length = snprintf(prefix, sizeof prefix, "body \"%s\": ", key);
+        const bool named = strncmp(reason.text, prefix, (size_t)length) == 0;
+        return sb_fail(error, status, "%s: %s", key, reason.text + (named ? length : 0));
+    }
     for (size_t k = first; k < told->count; k++) told->items[k].is_key = true;
     return status;
 }
@@ -153,12 +161,15 @@ static sb_status check_covered(const raster *r, sb_error *error)
             first = k;
         }
     if (missing == 0) return SB_OK;
+    const double x = r->x + (double)(first % r->columns) * r->cell, y = r->y + (double)(first / r->columns) * r->cell;
+    const bool hole = x >= r->min[0] && x <= r->max[0] && y >= r->min[1] && y <= r->max[1];
     return sb_fail(error, SB_BAD_INPUT,
                    "offshore.terrain: no height at (%.9g, %.9g) m and at %zu other cells; its grids lie from (%.9g, "
                    "%.9g) to (%.9g, "
                    "%.9g); expected grids that cover the model, or a smaller offshore.min and max%s",
-                   r->x + (double)(first % r->columns) * r->cell, r->y + (double)(first / r->columns) * r->cell,
-                   missing - 1, r->min[0], r->min[1], r->max[0], r->max[1], remedy(r));
+                   x, y, missing - 1, r->min[0], r->min[1], r->max[0], r->max[1],
+                   hole ? "; this place is in a void, or in a gap between grids: a coarse grid before them covers it"
+                        : remedy(r));
 }
 
 sb_status sb_bed_fill(const sb_scene *scene, sb_offshore_start *start, sb_error *error)
