@@ -48,6 +48,7 @@ static void check_and_run(const char *text, const char *about, const char *run)
     outcome o = RUN(0, "check", "sea.yaml");
     assert_contains(o.out, about);
     assert_contains(o.out, "sea at x_min");
+    assert_contains(o.out, "ground at 0 m");
     if (strstr(o.out, "warning: sea")) fail_msg("%s", o.out);
     outcome_free(&o);
     RUN_AND_FORGET(0, "run", "sea.yaml", "--out", run, "--quiet", "--overwrite");
