@@ -118,6 +118,8 @@ static sb_status draw_grid(raster *r, const sb_offshore_grid *grid, const char *
                     .scale = grid->scale,
                     .positive = grid->positive,
                     .datum = grid->datum,
+                    .crs = grid->crs,
+                    .projection = grid->projection,
                     .voids = SB_VOIDS_SHOW,
                     .translate = sb_vec(grid->x, grid->y, 0)};
     snprintf(body.name, sizeof body.name, "%s", key);
@@ -144,7 +146,7 @@ static const char *remedy(const raster *r)
 {
     const bool small = r->max[0] - r->min[0] < r->cell && r->max[1] - r->min[1] < r->cell;
     if (small && r->min[0] >= -180 && r->max[0] <= 360 && r->min[1] >= -90 && r->max[1] <= 90)
-        return "; these look like longitudes and latitudes, expected metres";
+        return "; these look like longitudes and latitudes, expected metres, or the key crs, such as EPSG:4326";
     const double x = r->x + r->cell * (double)(r->columns - 1), y = r->y + r->cell * (double)(r->rows - 1);
     if (r->min[0] > x || r->max[0] < r->x || (r->rows > 1 && (r->min[1] > y || r->max[1] < r->y)))
         return "; the key shift of a grid moves it";
