@@ -115,9 +115,12 @@ static void report_sea(const sb_model *model, int side)
         low = fmin(low, sea->bed[c]);
         high = fmax(high, sea->bed[c]);
     }
-    printf("  sea at %s       %zu column%s, a strip %g m wide is held to the given water, %g m are measured;\n"
-           "                     ground from %g to %g m\n",
-           sb_side_names[side], sea->along, sea->along == 1 ? "" : "s", sea->strip, sea->width - sea->strip, low, high);
+    printf("  sea at %s       %zu column%s, a strip %g m wide is held to the given water, %g m are measured;\n",
+           sb_side_names[side], sea->along, sea->along == 1 ? "" : "s", sea->strip, sea->width - sea->strip);
+    if (low < high)
+        printf("                     ground from %g to %g m\n", low, high);
+    else
+        printf("                     ground at %g m\n", low);
 }
 
 /* Whether the nested grid has terrain beside that of the bodies. */

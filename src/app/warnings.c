@@ -26,11 +26,25 @@ static void warn_of_bound(const sb_reflection_set *set, const double *places, in
     visit(context, text);
 }
 
+/* A window that the run does not fill has no row. */
+static void warn_of_window(const sb_scene *scene, const sb_reflection_set *set, sb_warning_visit *visit, void *context)
+{
+    char text[300];
+    const double end = set->start + set->window;
+    if (end <= scene->duration * (1 + 1e-9)) return;
+    snprintf(text, sizeof text,
+             "measure.reflections %s: its first window ends at %g s, after the end of the run at %g s: reflections.csv "
+             "has no row of it; expected an earlier start, a shorter window or a longer duration",
+             set->name, end, scene->duration);
+    visit(context, text);
+}
+
 /* Gauges near multiples of half a wavelength apart cannot tell incident from reflected waves. */
 static void warn_of_reflections(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
     for (size_t r = 0; r < scene->measure.reflection_count; r++) {
         const sb_reflection_set *set = &scene->measure.reflections[r];
+        warn_of_window(scene, set, visit, context);
         double *places = sb_alloc(set->gauge_count, sizeof *places);
         for (size_t i = 0; places && i < set->gauge_count; i++) places[i] = sb_reflection_place(scene, set, i);
         const double first = sb_wave_number(set->period, set->depth, scene->fluid.gravity);

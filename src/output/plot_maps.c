@@ -21,7 +21,8 @@ static int draw_map(const char *program, const char *directory, const sb_map_row
     if (in) fclose(in);
     FILE *out = read && rows > 1 ? sb_plot_open(directory, name, "gp", script, &error) : NULL;
     if (!out) return 0;
-    snprintf(title, sizeof title, "%.300s: %s", scene->title ? scene->title : "", row->label);
+    snprintf(title, sizeof title, "%.300s: %s%s", scene->title ? scene->title : "",
+             name == row->grid_name ? "grid, " : "", row->label);
     fprintf(out,
             "set terminal pngcairo noenhanced size 1100,900 font 'Sans,11'\n"
             "set output '" SB_PLOT_PART "'\nset size ratio -1\nset xlabel 'x (m)'\nset ylabel 'y (m)'\n"

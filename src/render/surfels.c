@@ -9,7 +9,8 @@ static const float least_radius = 0.7f, disc_radius = 1.6f;
 
 enum { BLOCK = 8192 };
 
-/* A particle is hidden if the density at a distance of cover_spacings towards the eye is above `dense`. */
+/* A particle is hidden if the density at a distance of cover_spacings towards the eye is above `dense`. In a
+   slice, whose particles lie in a plane, none is hidden. */
 static const float dense = 0.68f, cover_spacings = 1.6f;
 /* The surface is where the density is this. */
 static const float surface_density = 0.5f;
@@ -28,7 +29,8 @@ static size_t choose(const sb_density *density, const sb_frame *frame, const sb_
         const float to_eye[3] = {lens->eye[0] - p[0], lens->eye[1] - p[1], lens->eye[2] - p[2]};
         if (!sb_density_counts(p) || sb_lens_outside(lens, to_eye) || sb_lens_cut(lens, p)) continue;
         const float step = cover / sqrtf(sb_dot3(to_eye, to_eye));
-        if (sb_density_at(density, p[0] + step * to_eye[0], p[1] + step * to_eye[1], p[2] + step * to_eye[2]) > dense)
+        if (!density->slice &&
+            sb_density_at(density, p[0] + step * to_eye[0], p[1] + step * to_eye[1], p[2] + step * to_eye[2]) > dense)
             continue;
         chosen[block * BLOCK + count++] = (uint32_t)i;
     }

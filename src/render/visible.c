@@ -4,7 +4,8 @@
 #include "base/memory.h"
 #include "render/lens.h"
 
-/* A particle is hidden if the density at a distance of cover_spacings towards the eye is above this. */
+/* A particle is hidden if the density at a distance of cover_spacings towards the eye is above this. In a slice,
+   whose particles lie in a plane, none is hidden. */
 static const float dense = 0.68f, cover_spacings = 1.6f;
 /* The density at and above which a particle is not drawn as a single drop. */
 static const float crowd_density = 0.35f;
@@ -37,7 +38,8 @@ static void collect(sb_visible *visible, const sb_frame *frame, const float *val
         float to_eye[3] = {lens.eye[0] - p[0], lens.eye[1] - p[1], lens.eye[2] - p[2]};
         if (!sb_density_counts(p) || sb_lens_outside(&lens, to_eye) || sb_lens_cut(&lens, p)) continue;
         float step = cover_spacings * spacing / sqrtf(sb_dot3(to_eye, to_eye));
-        if (sb_density_at(density, p[0] + step * to_eye[0], p[1] + step * to_eye[1], p[2] + step * to_eye[2]) > dense)
+        if (!density->slice &&
+            sb_density_at(density, p[0] + step * to_eye[0], p[1] + step * to_eye[1], p[2] + step * to_eye[2]) > dense)
             continue;
         const float value = values[i] > 0 ? values[i] < 1 ? values[i] : 1 : 0;
         float crowd = sb_density_at(density, p[0], p[1], p[2]) / crowd_density;

@@ -7,11 +7,12 @@
 
 /* Heights on a grid of the depth-averaged model: terrain, or an uplift of the surface. */
 typedef struct sb_offshore_grid {
-    char *file;           /* absolute path */
-    double scale;         /* metres per file unit */
-    sb_positive positive; /* direction in which values are positive */
-    double datum;         /* m, added to the heights */
-    double x, y;          /* m, translation */
+    char *file;             /* absolute path */
+    double scale;           /* metres per file unit */
+    sb_positive positive;   /* direction in which values are positive */
+    double datum;           /* m, added to the heights */
+    double x, y;            /* m, translation */
+    char *crs, *projection; /* as those of sb_body */
 } sb_offshore_grid;
 
 typedef enum sb_grid_side {

@@ -23,7 +23,7 @@ static const sb_table side_table = {SB_KEY_ROWS(side_keys)};
      SB_KEY_AT(sb_offshore_grid, file),                                                                                \
      .flags = SB_KEY_REQUIRED,                                                                                         \
      .doc = "Heights in metres: ESRI ASCII (.asc), GeoClaw topotype 1 to 3, lines of x y z, GeoTIFF .tif, or NetCDF "  \
-            ".nc or .grd; a file in degrees that states so is projected to its UTM zone."},                            \
+            ".nc or .grd; a file in degrees that states so, or has `crs`, is projected to metres."},                   \
         {.name = "scale",                                                                                              \
          .type = SB_KEY_NUMBER,                                                                                        \
          SB_KEY_AT(sb_offshore_grid, scale),                                                                           \
@@ -44,6 +44,18 @@ static const sb_table side_table = {SB_KEY_ROWS(side_keys)};
          SB_KEY_ANY,                                                                                                   \
          .fallback = "0",                                                                                              \
          .doc = "Value added to all heights."},                                                                        \
+        {.name = "crs",                                                                                                \
+         .type = SB_KEY_TEXT,                                                                                          \
+         SB_KEY_AT(sb_offshore_grid, crs),                                                                             \
+         .fallback = "\"\"",                                                                                           \
+         .doc = "Coordinate system of the file, as `bodies[].crs`."},                                                  \
+        {.name = "projection",                                                                                         \
+         .type = SB_KEY_TEXT,                                                                                          \
+         SB_KEY_AT(sb_offshore_grid, projection),                                                                      \
+         .fallback = "\"\"",                                                                                           \
+         .doc = "Coordinate system to which the grid is projected, in metres, such as `EPSG:32654`. Empty: that of a " \
+                "file in metres, or the UTM zone of the middle of a file in degrees; all grids of a scene need the "   \
+                "same."},                                                                                              \
     {                                                                                                                  \
         .name = "shift", .type = SB_KEY_PLACE, SB_KEY_AT(sb_offshore_grid, x), .unit = "m", SB_KEY_ANY,                \
         .derived = "no shift", .doc = "Value added to x and y, after `scale`."                                         \

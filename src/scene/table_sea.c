@@ -69,7 +69,9 @@ static const sb_key keys[] = {
      .doc = "Where the given water comes from: `theory`, a `table`, the `record` of an earlier run, or the depth-averaged "
             "model of the block `offshore`; `none`: still water."},
     {.name = "level", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_given_sea, level), .unit = "m", SB_KEY_ANY,
-     .applies = GIVEN, .only = "a source", .derived = "water.level", .doc = "Still-water level of the given water."},
+     .applies = GIVEN, .only = "a source", .derived = "water.level",
+     .doc = "Still-water level of the given water; with source offshore only of sides that are `still`: that of the "
+            "grid is `offshore.level`."},
     {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_given_sea, start), .unit = "s", SB_KEY_ANY,
      .applies = GIVEN, .only = "a source", .fallback = "0",
      .doc = "Time of the run at which the source has 0 s. -600 begins a run at 600 s of a table."},

@@ -71,6 +71,25 @@ static sb_status check_extent(const sb_line *series, const sb_scene *scene, cons
         like_degrees(series) ? "; these look like longitudes and latitudes" : "");
 }
 
+/* Refuses points that are not in their order along the side: a line around a corner turns by 90 degrees at most. */
+static sb_status check_order(const sb_line *series, const sb_scene *scene, const char *path, sb_error *error)
+{
+    if (scene->dimensions == 2) return SB_OK;
+    for (size_t i = 1; i + 1 < series->count; i++) {
+        const sb_line_point *before = &series->points[i - 1], *here = &series->points[i], *after = here + 1;
+        const double in[2] = {here->x - before->x, here->y - before->y};
+        const double out[2] = {after->x - here->x, after->y - here->y};
+        const double least = fmin(hypot(in[0], in[1]), hypot(out[0], out[1]));
+        if (least < scene->resolution || in[0] * out[0] + in[1] * out[1] >= -0.01 * least * least) continue;
+        return sb_fail(
+            error, SB_BAD_INPUT,
+            "%.500s: the line of its points turns back at (%g, %g), expected points in their order along the "
+            "side",
+            path, here->x, here->y);
+    }
+    return SB_OK;
+}
+
 sb_status sb_line_check(const sb_line *series, const sb_scene *scene, const char *path, sb_error *error)
 {
     if (series->count == 0) return sb_fail(error, SB_BAD_INPUT, "%.500s: has no rows, expected at least 2", path);
@@ -83,5 +102,6 @@ sb_status sb_line_check(const sb_line *series, const sb_scene *scene, const char
         status = check_times(point, scene, path, error);
     }
     if (status == SB_OK && series->count > 1) status = check_places(series, scene, path, error);
-    return status == SB_OK && series->count > 1 ? check_extent(series, scene, path, error) : status;
+    if (status == SB_OK && series->count > 1) status = check_extent(series, scene, path, error);
+    return status == SB_OK ? check_order(series, scene, path, error) : status;
 }

@@ -6,7 +6,7 @@
 #include "sea/line.h"
 
 /* SB_BAD_INPUT, with the file's path, unless each point has two rows that contain the run's times, and, where there is
-   more than one point, all are beside the domain. path: of the file. */
+   more than one point, all are beside the domain and in their order. path: of the file. */
 sb_status sb_line_check(const sb_line *series, const sb_scene *scene, const char *path, sb_error *error);
 
 #endif

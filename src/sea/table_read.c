@@ -16,6 +16,7 @@ static const char *const unit_names[] = {"m", "cm", "mm", "ft"};
 /* Where each quantity is in a row; -1: nowhere. */
 typedef struct layout {
     int column[COLUMNS];
+    size_t cells; /* of the header, or of the first row */
 } layout;
 
 typedef struct name {
@@ -44,6 +45,7 @@ static int column_of(const char *cell)
 static sb_status read_header(const sb_rows *rows, layout *found, sb_error *error)
 {
     for (int c = 0; c < COLUMNS; c++) found->column[c] = -1;
+    found->cells = rows->cell_count;
     for (size_t i = 0; i < rows->cell_count; i++) {
         const int column = column_of(rows->cells[i]);
         if (column == COLUMNS) continue;
@@ -68,7 +70,8 @@ static sb_status read_header(const sb_rows *rows, layout *found, sb_error *error
 /* The columns of a table without a header, from their number. */
 static sb_status guess_layout(const sb_rows *rows, layout *found, sb_error *error)
 {
-    static const layout one = {{0, -1, -1, 1, 2, -1}}, one_v = {{0, -1, -1, 1, 2, 3}}, many = {{0, 1, 2, 3, 4, 5}};
+    static const layout one = {{0, -1, -1, 1, 2, -1}, 3}, one_v = {{0, -1, -1, 1, 2, 3}, 4},
+                        many = {{0, 1, 2, 3, 4, 5}, 6};
     *found = rows->cell_count == 3 ? one : rows->cell_count == 4 ? one_v : many;
     if (rows->cell_count == 3 || rows->cell_count == 4 || rows->cell_count == 6) return SB_OK;
     return sb_fail(
@@ -76,6 +79,17 @@ static sb_status guess_layout(const sb_rows *rows, layout *found, sb_error *erro
         "%.500s:%zu: %zu columns without a header, expected t, eta, u (3), t, eta, u, v (4), t, x, y, eta, u, "
         "v (6), or a header that names the columns",
         rows->path, rows->line, rows->cell_count);
+}
+
+/* A comma within a number separates two columns: such a row has more of them than the table. */
+static sb_status check_cells(const sb_rows *rows, const layout *found, sb_error *error)
+{
+    size_t cells = rows->cell_count;
+    while (cells > found->cells && !*rows->cells[cells - 1]) cells--;
+    if (cells <= found->cells) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT,
+                   "%.500s:%zu: %zu columns, expected at most the %zu of the table; decimals have points", rows->path,
+                   rows->line, cells, found->cells);
 }
 
 /* A header may name the unit of the scene's key; another one is refused. */
@@ -98,7 +112,7 @@ static sb_status add_row(const sb_rows *rows, const double *value, double unit, 
 static sb_status read_csv(sb_rows *rows, char *line, sb_given_unit unit, sb_line *series, sb_error *error)
 {
     static const char *const what[] = {"t", "x", "y", "eta", "u", "v"};
-    layout found = {{0}};
+    layout found = {.cells = 0};
     bool known = false;
     sb_status status = SB_OK;
     for (; status == SB_OK && line; line = sb_rows_next(rows)) {
@@ -113,6 +127,7 @@ static sb_status read_csv(sb_rows *rows, char *line, sb_given_unit unit, sb_line
         const bool first = !known;
         known = true;
         if (first && header) continue;
+        status = check_cells(rows, &found, error);
         double value[COLUMNS] = {0};
         for (int c = 0; status == SB_OK && c < COLUMNS; c++)
             if (found.column[c] >= 0) status = sb_rows_number(rows, (size_t)found.column[c], what[c], &value[c], error);

@@ -221,6 +221,33 @@ static void degrees_are_the_bed_of_a_grid(void **state)
     assert_true(exists("degrees-bed/maps/max_depth.asc"));
 }
 
+/* Grids of the bed may be placed like those of bodies: text in degrees, and one projection for all. */
+static void grids_of_the_bed_have_coordinate_systems(void **state)
+{
+    (void)state;
+    write_text("gebco.asc", "ncols 2\nnrows 2\nxllcenter 141.53\nyllcenter 38.39\ncellsize 0.012\n-9 -9\n-9 -9\n");
+    grid_sample_netcdf(&in_degrees, in_folder("fine.nc"));
+    write_text("zones.yaml", "title: Bed\nduration: 1\ndomain: {min: [0, 0, -20], max: [100, 40, 10]}\n"
+                             "offshore: {cell: 10, level: 0, terrain: [{file: gebco.asc, crs: EPSG:4326, "
+                             "shift: [-546730, -4249750]}]}\noutput: {plots: false}\n");
+    outcome o = program_run((const char *const[]){"check", "zones.yaml", NULL});
+    if (o.status != 0) fail_msg("%s", o.err);
+    assert_contains(o.out, "gebco.asc: EPSG:4326, projected; 2 x 2 nodes");
+    assert_contains(o.out, "10 x 4 of 10 m, 40 wet");
+    outcome_free(&o);
+    o = program_run((const char *const[]){"check", "zones.yaml", "--set", "offshore.terrain=[gebco.asc]", NULL});
+    assert_int_equal(o.status, 1);
+    assert_one_line(o.err, "these look like longitudes and latitudes, expected metres, or the key crs");
+    outcome_free(&o);
+    o = program_run((const char *const[]){"check", "zones.yaml", "--set",
+                                          "offshore.uplift={file: fine.nc, projection: EPSG:32653, "
+                                          "shift: [-1070900, -4270000]}",
+                                          NULL});
+    if (o.status != 0) fail_msg("%s", o.err);
+    assert_contains(o.out, "    ground: EPSG:32653; ");
+    outcome_free(&o);
+}
+
 /* A text grid as a body, with keys that change its places and heights. */
 static void a_text_grid_is_told(void **state)
 {
@@ -266,9 +293,13 @@ static void refusals_name_the_remedy(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_stack_with_voids_and_a_datum), cmocka_unit_test(a_table_of_geoclaw_enters_a_real_coast),
-        cmocka_unit_test(degrees_are_projected),          cmocka_unit_test(a_survey_is_the_bed_of_a_grid),
-        cmocka_unit_test(degrees_are_the_bed_of_a_grid),  cmocka_unit_test(a_text_grid_is_told),
+        cmocka_unit_test(a_stack_with_voids_and_a_datum),
+        cmocka_unit_test(a_table_of_geoclaw_enters_a_real_coast),
+        cmocka_unit_test(degrees_are_projected),
+        cmocka_unit_test(a_survey_is_the_bed_of_a_grid),
+        cmocka_unit_test(degrees_are_the_bed_of_a_grid),
+        cmocka_unit_test(a_text_grid_is_told),
+        cmocka_unit_test(grids_of_the_bed_have_coordinate_systems),
         cmocka_unit_test(refusals_name_the_remedy),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

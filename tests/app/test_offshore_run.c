@@ -154,6 +154,12 @@ static void bad_input_is_one_line(void **state)
     write_grid("small.xyz", -10, 30, -10, 50, -10);
     refuse("no height at (31, 1) m and at 499 other cells; its grids lie from ",
            "offshore.terrain=[{file: small.xyz}]");
+    write_text("void.asc", "ncols 3\nnrows 3\nxllcenter -80\nyllcenter -80\ncellsize 100\nnodata_value -1\n-9 -9 -9\n"
+                           "-9 -1 -9\n-9 -9 -9\n");
+    refuse("this place is in a void, or in a gap between grids", "offshore.terrain=[void.asc]");
+    write_text("broken.asc", "ncols 3\nnrows x\n");
+    refuse("shorebreak: offshore.terrain[0]: ", "offshore.terrain=[broken.asc]");
+    refuse("shorebreak: offshore.uplift: ", "offshore.uplift={file: broken.asc}");
     write_text("degrees.asc", "ncols 3\nnrows 2\nxllcorner 141\nyllcorner 37\ncellsize 0.001\n-9 -9 -9\n-9 -9 -9\n");
     refuse("these look like longitudes and latitudes", "offshore.terrain=[{file: degrees.asc}]");
     refuse("the key shift of a grid moves it", "offshore.terrain=[{file: small.xyz, shift: [900, 0]}]");

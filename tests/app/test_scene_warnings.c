@@ -60,6 +60,12 @@ static void check_and_run_give_the_same_warnings(void **state)
          "  reflections: [{name: r, gauges: [a, b, c, d], period: 4, depth: 0.4, harmonics: 2, bound: true}]\n",
          "measure.reflections r: at these gauges free waves of the period 2 s",
          "expected 0.05 or more, by gauges over"},
+        {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\noutput: {plots: false}\n"
+         "domain: {min: [0, 0], max: [4, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
+         "measure:\n  interval: 0.01\n  gauges: [{name: a, x: 1}, {name: b, x: 1.2}, {name: c, x: 1.5}]\n"
+         "  reflections: [{name: r, gauges: [a, b, c], period: 2, depth: 0.4, harmonics: 1, start: 1, window: 4}]\n",
+         "measure.reflections r: its first window ends at 5 s, after the end of the run at 0.02 s",
+         "expected an earlier start, a shorter window or a longer duration"},
         {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\nmeasure: {interval: 0.01}\n"
          "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
          "output: {plots: false, particle_pieces: true}\n",

@@ -48,6 +48,7 @@ static void check_and_run(const char *text, const char *about, const char *run)
     outcome o = RUN(0, "check", "sea.yaml");
     assert_contains(o.out, about);
     assert_contains(o.out, "sea at x_min");
+    assert_contains(o.out, "ground at 0 m");
     if (strstr(o.out, "warning: sea")) fail_msg("%s", o.out);
     outcome_free(&o);
     RUN_AND_FORGET(0, "run", "sea.yaml", "--out", run, "--quiet", "--overwrite");
@@ -147,6 +148,9 @@ static void doubtful_input_is_named(void **state)
     } cases[] = {
         {"sea: {source: theory, wave: solitary, height: 0.08, depth: 0.4, start: -2.5}\n", "a bore enters at once"},
         {"sea: {source: theory, wave: solitary, height: 0.08, depth: 0.4, level: 0.5}\n", "sea.start or sea.level"},
+        {"sea: {source: table, file: table.csv, datum: 0.48, sides: {x_max: still}}\n", "sea.start or sea.datum"},
+        {"sea: {source: offshore}\noffshore: {cell: 0.05, min: [-1], max: [5], level: 0.5}\n",
+         "sea.start or offshore.level"},
         {"sea: {source: theory, wave: solitary, height: 0.08, depth: 0.8}\n", "expected the depth at the side"},
         {"sea: {source: table, file: table.csv}\n", "such as {x_max: still}"},
     };

@@ -61,7 +61,7 @@ static void write_tables(void)
     assert_int_equal(sb_csv_close(csv, NULL), SB_OK);
 }
 
-static void write_maps(void)
+static void write_maps(bool beside)
 {
     enum { COLUMNS = 130, ROWS = 115 };
     static float values[COLUMNS * ROWS];
@@ -69,7 +69,7 @@ static void write_maps(void)
         for (int i = 0; i < COLUMNS; i++)
             values[j * COLUMNS + i] = i > 100 + j / 10 ? NAN : (float)(38 - 0.3 * i + 0.05 * j);
     const sb_map_record map = {COLUMNS, ROWS, 0, -575, 10, values, values, values, values, values};
-    assert_int_equal(sb_maps_write(folder, &map, false, NULL), SB_OK);
+    assert_int_equal(sb_maps_write(folder, &map, beside, NULL), SB_OK);
 }
 
 static bool is_png(const char *name)
@@ -111,7 +111,7 @@ static void pictures_are_drawn(void **state)
     char program[SB_PATH_MAX];
     if (!sb_tool_find("gnuplot", program)) skip();
     write_tables();
-    write_maps();
+    write_maps(false);
     sb_runlog *log;
     assert_int_equal(sb_runlog_open(in_folder("run.jsonl"), &log, NULL), SB_OK);
     int drawn = sb_plots_write(folder, &scene, log);
@@ -168,6 +168,8 @@ static void plots_have_the_right_titles(void **state)
     snprintf(bin, sizeof bin, "%s", in_folder("bin"));
     write_text("gauges.csv", "time_s,gauge,eta_m,z_m\n0,offshore,0.5,2.5\n1,offshore,0.25,2.25\n");
     write_text("runup.csv", "time_s,line,x_m,y_m,z_m,front_m,apart_m\n0,beach,1,2,3,4,7\n1,beach,1,2,3,5,8\n");
+    write_maps(false);
+    write_maps(true);
     for (int level = 0; level < 2; level++) {
         sb_runlog *log;
         unlink(in_folder("drawn"));
@@ -183,6 +185,8 @@ static void plots_have_the_right_titles(void **state)
         assert_true((strstr(drawn, "\n0 0.5\n1 0.25\n") != NULL) == level);
         assert_true((strstr(drawn, "'absolute elevation z (m)'") != NULL) == !level);
         assert_true((strstr(drawn, "\n0 2.5\n1 2.25\n") != NULL) == !level);
+        assert_non_null(strstr(drawn, ": greatest depth (m)'"));
+        assert_non_null(strstr(drawn, ": grid, greatest depth (m)'"));
         assert_non_null(strstr(drawn, "'run-up, absolute z (m)'"));
         assert_non_null(strstr(drawn, "'front from first end (m)'"));
         assert_non_null(strstr(drawn, "'length of unconnected water (m)'"));

@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "render/fields.h"
 #include "render/splat.h"
+#include "render/visible.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -130,6 +131,36 @@ static void drops_are_small_and_sheets_unbroken(void **state)
     sb_frame_release(drop);
 }
 
+/* A slice that is seen along its plane, as at the ends of a wide picture: no particle hides another. */
+static void all_of_a_slice_is_visible(void **state)
+{
+    (void)state;
+    sb_frame *frame = lattice(80, 1, 16);
+    const sb_vec3 eye = sb_vec(20, -6, 4), target = sb_vec(26, 0.25, 4);
+    sb_surfels surfels;
+    sb_splat splat;
+    draw(frame, eye, target, 1, &surfels, &splat);
+    for (size_t i = 0; i < WIDTH * 3 / 4; i++) assert_true(splat.cover[4 * (HEIGHT / 2 * WIDTH + i)] == 1);
+    const sb_camera_key key = {0, eye, target, 50, SB_EASE_SMOOTH};
+    const sb_view view = sb_view_create(&key, (double)WIDTH / HEIGHT, sb_vec(-20, -20, -20), sb_vec(60, 60, 60));
+    sb_visible visible = {0};
+    sb_error error = {0};
+    float *values = sb_alloc(frame->count, sizeof *values);
+    assert_non_null(values);
+    assert_int_equal(sb_visible_collect(&visible, frame, values, NULL, &view, 1, &error), SB_OK);
+    size_t middle = 0;
+    for (size_t i = 0; i < visible.count; i++) {
+        const float *p = visible.points[i].position;
+        middle += p[0] > 24 && p[0] < 34 && p[2] > 2 && p[2] < 6;
+    }
+    assert_int_equal(middle, 20 * 8);
+    sb_free(values);
+    sb_visible_free(&visible);
+    sb_surfels_free(&surfels);
+    sb_splat_free(&splat);
+    sb_frame_release(frame);
+}
+
 /* At a vertical wall and at the ground, the density is that of the water in front of it. */
 static void density_continues_into_walls(void **state)
 {
@@ -237,6 +268,7 @@ int main(void)
         cmocka_unit_test(calm_water_is_flat),
         cmocka_unit_test(threads_do_not_change_a_bit),
         cmocka_unit_test(drops_are_small_and_sheets_unbroken),
+        cmocka_unit_test(all_of_a_slice_is_visible),
         cmocka_unit_test(density_continues_into_walls),
         cmocka_unit_test(fields_have_their_values),
         cmocka_unit_test(strange_particles_are_left_out),

@@ -131,8 +131,13 @@ static void what_is_refused(void **state)
         SEA_SPACE, TABLE, "t,x,y,eta,u\n0,1.03,7.42,0,0\n29,1.03,7.42,0,0\n0,1.03,7.43,0,0\n29,1.03,7.43,0,0\n",
         "its 2 points lie within 0.01 m of (1.03, 7.42), less than a spacing of 0.1 m, expected points along a side, "
         "in metres of the scene; these look like longitudes and latitudes");
+    sea_refused(SEA_SPACE, TABLE, "t,x,y,eta,u\n0,0,0,0,0\n29,0,0,0,0\n0,0,4,0,0\n29,0,4,0,0\n0,0,2,0,0\n29,0,2,0,0\n",
+                "the line of its points turns back at (0, 4), expected points in their order along the side");
     sea_refused(SEA_FLAT, TABLE, "t,eta,u\n0,0,0\n29,nan,0\n", "table.csv:3: eta is nan, expected a number");
     sea_refused(SEA_FLAT, TABLE, "t,eta,u\n0,0,0\n29,0,\n", "table.csv:3: u is missing");
+    sea_refused(SEA_FLAT, TABLE, "t;eta;u\n0;0,0;0\n29;0,1;0\n",
+                "table.csv:2: 4 columns, expected at most the 3 of the table; decimals have points");
+    sea_refused(SEA_FLAT, TABLE, "0,0,0\n29,0,0,0\n", "table.csv:2: 4 columns");
     sea_refused(SEA_FLAT, TABLE, "t,eta,u\n0,0,0\n8,0,0\n7,0,0\n29,0,0\n",
                 "table.csv:4: time 7 s does not follow 8 s, expected increasing times");
     sea_refused(SEA_FLAT, TABLE, "time_s,gauge,eta_m,z_m\n0,a,0,0\n",

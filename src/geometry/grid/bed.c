@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 size_t sb_bed_columns(const sb_scene *scene)
 {
@@ -117,11 +118,20 @@ static sb_status draw_grid(raster *r, const sb_offshore_grid *grid, const char *
                     .scale = grid->scale,
                     .positive = grid->positive,
                     .datum = grid->datum,
+                    .crs = grid->crs,
+                    .projection = grid->projection,
                     .voids = SB_VOIDS_SHOW,
                     .translate = sb_vec(grid->x, grid->y, 0)};
     snprintf(body.name, sizeof body.name, "%s", key);
     const size_t first = told->count;
-    const sb_status status = draw_body(r, &body, told, error);
+    sb_error reason = {0};
+    const sb_status status = draw_body(r, &body, told, &reason);
+    if (status != SB_OK) {
+        char prefix[80]; /* the scene has no such body */
+        const int length = snprintf(prefix, sizeof prefix, "body \"%s\": ", key);
+        const bool named = strncmp(reason.text, prefix, (size_t)length) == 0;
+        return sb_fail(error, status, "%s: %s", key, reason.text + (named ? length : 0));
+    }
     for (size_t k = first; k < told->count; k++) told->items[k].is_key = true;
     return status;
 }
@@ -136,7 +146,7 @@ static const char *remedy(const raster *r)
 {
     const bool small = r->max[0] - r->min[0] < r->cell && r->max[1] - r->min[1] < r->cell;
     if (small && r->min[0] >= -180 && r->max[0] <= 360 && r->min[1] >= -90 && r->max[1] <= 90)
-        return "; these look like longitudes and latitudes, expected metres";
+        return "; these look like longitudes and latitudes, expected metres, or the key crs, such as EPSG:4326";
     const double x = r->x + r->cell * (double)(r->columns - 1), y = r->y + r->cell * (double)(r->rows - 1);
     if (r->min[0] > x || r->max[0] < r->x || (r->rows > 1 && (r->min[1] > y || r->max[1] < r->y)))
         return "; the key shift of a grid moves it";
@@ -153,12 +163,15 @@ static sb_status check_covered(const raster *r, sb_error *error)
             first = k;
         }
     if (missing == 0) return SB_OK;
+    const double x = r->x + (double)(first % r->columns) * r->cell, y = r->y + (double)(first / r->columns) * r->cell;
+    const bool hole = x >= r->min[0] && x <= r->max[0] && y >= r->min[1] && y <= r->max[1];
     return sb_fail(error, SB_BAD_INPUT,
                    "offshore.terrain: no height at (%.9g, %.9g) m and at %zu other cells; its grids lie from (%.9g, "
                    "%.9g) to (%.9g, "
                    "%.9g); expected grids that cover the model, or a smaller offshore.min and max%s",
-                   r->x + (double)(first % r->columns) * r->cell, r->y + (double)(first / r->columns) * r->cell,
-                   missing - 1, r->min[0], r->min[1], r->max[0], r->max[1], remedy(r));
+                   x, y, missing - 1, r->min[0], r->min[1], r->max[0], r->max[1],
+                   hole ? "; this place is in a void, or in a gap between grids: a coarse grid before them covers it"
+                        : remedy(r));
 }
 
 sb_status sb_bed_fill(const sb_scene *scene, sb_offshore_start *start, sb_error *error)

@@ -123,6 +123,12 @@ static sb_status find_grid(int file, variable *found, sb_error *error)
                    grids);
 }
 
+/* A file that ends too early gives codes of the system, such as EPERM, whose texts mislead. */
+static const char *reason_of(int failed)
+{
+    return failed > 0 ? "reading failed, expected a whole file" : nc.reason(failed);
+}
+
 /* Reads the coordinates along one axis, which must be regular. */
 static sb_status read_line(const variable *of, int k, double *low, double *step, uint32_t *flip, sb_error *error)
 {
@@ -134,7 +140,7 @@ static sb_status read_line(const variable *of, int k, double *low, double *step,
     const int failed = nc.values(of->file, of->lines[k], &first, &count, at);
     sb_status status = SB_OK;
     if (failed != NC_NOERR)
-        status = sb_fail(error, SB_BAD_INPUT, "its coordinates %c cannot be read: %s", "yx"[k], nc.reason(failed));
+        status = sb_fail(error, SB_BAD_INPUT, "its coordinates %c cannot be read: %s", "yx"[k], reason_of(failed));
     const double range = at[count - 1] - at[0], each = range / (double)(count - 1);
     for (size_t i = 0; i < count && status == SB_OK; ++i)
         if (!(fabs(at[i] - at[0] - (double)i * each) <= off_line * fabs(each)) || each == 0)
@@ -250,7 +256,7 @@ static sb_status read_heights(const variable *of, const sb_raster_about *about, 
     const int failed = nc.values(of->file, of->id, first, count, heights);
     if (failed != NC_NOERR)
         return sb_fail(error, SB_BAD_INPUT, "%.100s cannot be read at row %zu, column %zu: %s", of->name, top, left,
-                       nc.reason(failed));
+                       reason_of(failed));
     for (size_t i = 0; i < rows * columns; ++i)
         heights[i] = heights[i] == missing[0] || heights[i] == missing[1] ? (double)NAN : heights[i] * factor + offset;
     for (size_t j = 0; about->flip_y && j < rows / 2; ++j)

@@ -75,10 +75,14 @@ static sb_status warn_first(const sb_scene *scene, const farthest *f, sb_model *
             "the water there runs out through the side; expected a smaller offshore.cell than %g m, or a "
             "terrain that has this water",
             f->at.x, f->at.y, f->bed, scene->offshore.cell);
+    const sb_given_source source = scene->given.source;
+    const char *level = source == SB_GIVEN_OFFSHORE ? "offshore.level"
+                        : source == SB_GIVEN_TABLE  ? "sea.datum"
+                                                    : "sea.level";
     return sb_model_warn(model, error,
                          "sea: the given water begins %g m from the still water of water.level: a bore enters at "
-                         "once; expected another sea.start or sea.level",
-                         f->height);
+                         "once; expected another sea.start or %s",
+                         f->height, level);
 }
 
 /* Whether a source leaves less than a spacing of water at time t on a column that has SB_SEA_DEEP layers at the start,

@@ -445,6 +445,10 @@ static void test_refused_netcdf(void **state)
     grid_sample_netcdf(&sample, path);
     assert_int_equal(truncate(path, 700), 0);
     EXPECT_REFUSAL(&body, "bad.nc", "not readable as NetCDF");
+    sample.tile = 0; /* the classic format, which is read as far as it goes */
+    grid_sample_netcdf(&sample, path);
+    assert_int_equal(truncate(path, 300), 0);
+    EXPECT_REFUSAL(&body, "bad.nc", "expected a whole file");
     FILE *file = fopen(path, "w");
     fputs("no grid\n", file);
     fclose(file);
