@@ -228,6 +228,10 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
         .pictures_missing = sb_missed_sum(r, PICTURES).count,
     };
     summary.work = sb_sim_ledger(r->sim);
+    if (sb_scene_has_sea(r->scene)) {
+        summary.crossing = sb_sim_crossing(r->sim);
+        summary.particle_mass = sb_sim_particle_mass(r->sim);
+    }
     sb_grid_facts_beside grid;
     if (sb_sim_grid(r->sim)) {
         grid = grid_facts(sb_sim_grid(r->sim));

@@ -71,6 +71,18 @@ void sb_summary_put_work(sb_json *json, const sb_ledger *work)
     sb_json_close(json);
 }
 
+static void put_crossing(sb_json *json, const sb_crossing *c, double mass)
+{
+    sb_json_open(json, "sea", '{');
+    sb_json_number(json, "in_kg", (double)c->in * mass);
+    sb_json_number(json, "out_kg", (double)c->out * mass);
+    sb_json_vector(json, "carried_kg_m_s", c->momentum);
+    sb_json_vector(json, "held_kg_m_s", c->push);
+    sb_json_number(json, "carried_J", c->energy);
+    sb_json_number(json, "held_J", c->held);
+    sb_json_close(json);
+}
+
 /* The list "absorbers" of the paddles that absorb; nothing without one. */
 static void put_absorptions(sb_json *json, const sb_summary *s)
 {
@@ -244,6 +256,7 @@ static void put_all(sb_json *json, const sb_summary *s)
     sb_summary_put_energy(json, "energy_start", &s->first);
     sb_summary_put_energy(json, "energy_end", &s->last);
     if (s->work) sb_summary_put_work(json, s->work);
+    if (s->crossing) put_crossing(json, s->crossing, s->particle_mass);
     if (s->grid) sb_grid_beside_put(json, s->grid);
     put_stages(json, &s->spent);
     sb_json_close(json);

@@ -56,6 +56,8 @@ typedef struct sb_summary {
     const sb_reflection_record *reflections;   /* since the start of each set */
     sb_energy first, last;                     /* energies at the start and at the end */
     const sb_ledger *work;                     /* energy ledger; NULL: there was no simulation */
+    const sb_crossing *crossing;               /* through sides of kind sea; NULL: there are none */
+    double particle_mass;                      /* kg; in 2D kg/m */
     uint64_t hash;                             /* of the final state */
     uint64_t frames, pictures;                 /* particle files and pictures written */
     uint64_t frames_missing, pictures_missing; /* that could not be written */

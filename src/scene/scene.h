@@ -96,6 +96,13 @@ static inline bool sb_scene_sea_side(const sb_scene *scene, int side)
     return scene->domain.side[side] == SB_SIDE_SEA && !(scene->dimensions == 2 && side / 2 == 1);
 }
 
+static inline bool sb_scene_has_sea(const sb_scene *scene)
+{
+    for (int side = 0; side < SB_SIDES; side++)
+        if (sb_scene_sea_side(scene, side)) return true;
+    return false;
+}
+
 /* Whether the source of a given sea is that of a side; otherwise the side has still water, if it is of kind sea. */
 static inline bool sb_scene_given_side(const sb_scene *scene, int side)
 {

@@ -215,9 +215,9 @@ static sb_status check_explicit(sb_reader *reader, const sb_yaml *map, const sb_
 /* Given water needs particles, and a side. */
 static sb_status check_sea(sb_reader *reader, const sb_yaml *map, const sb_scene *scene)
 {
-    bool any = false, given = false;
+    const bool any = sb_scene_has_sea(scene);
+    bool given = false;
     for (int side = 0; side < 4; side++) {
-        any = any || sb_scene_sea_side(scene, side);
         given = given || sb_scene_given_side(scene, side);
         if (scene->given.side[side] == SB_GIVEN_STILL && !sb_scene_sea_side(scene, side))
             return sb_reader_fail(reader, map, "sea", "sides.%s: still, but domain.sides.%s is not sea, expected sea",

@@ -52,8 +52,7 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
         .wall_shear = shear,
         .wall_drag = shear || n->wall_friction > 0,
         .images = n->walls == SB_WALLS_IMAGES,
-        .sea = sb_scene_sea_side(scene, 0) || sb_scene_sea_side(scene, 1) || sb_scene_sea_side(scene, 2) ||
-               sb_scene_sea_side(scene, 3),
+        .sea = sb_scene_has_sea(scene),
         .surface_tension = scene->fluid.surface_tension > 0,
         .sponge = has_sponge(scene, SB_SPONGE_DAMPING),
         .viscous_sponge = has_sponge(scene, SB_SPONGE_VISCOUS),
@@ -243,6 +242,11 @@ const sb_ledger *sb_sim_ledger(const sb_sim *sim)
 const sb_crossing *sb_sim_crossing(const sb_sim *sim)
 {
     return &sim->state.crossing;
+}
+
+double sb_sim_particle_mass(const sb_sim *sim)
+{
+    return (double)sim->constant.mass;
 }
 
 sb_vec3 sb_sim_body_displacement(const sb_sim *sim, size_t body)

@@ -97,6 +97,8 @@ sb_energy sb_sim_energy(const sb_sim *sim);
 /* Since t = 0. */
 const sb_ledger *sb_sim_ledger(const sb_sim *sim);
 const sb_crossing *sb_sim_crossing(const sb_sim *sim);
+/* kg; in 2D kg/m. */
+double sb_sim_particle_mass(const sb_sim *sim);
 /* The depth-averaged model that gives the water at sides of kind sea; NULL: the scene has none. Its time is at or after
    that of the particles. */
 const sb_offshore *sb_sim_grid(const sb_sim *sim);

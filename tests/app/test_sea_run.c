@@ -41,6 +41,19 @@ static double highest_of(const char *run)
     return highest;
 }
 
+/* The mass of the water in the object `key` of the summary, kg/m. */
+static double mass_in(const char *run, const char *key)
+{
+    char path[64];
+    snprintf(path, sizeof path, "%s/summary.json", run);
+    char *text = text_of(path);
+    const char *object = strstr(text, key), *mass = object ? strstr(object, "\"mass_kg\": ") : NULL;
+    assert_non_null(mass);
+    const double value = strtod(mass + strlen("\"mass_kg\": "), NULL);
+    sb_free(text);
+    return value;
+}
+
 /* Checks that `check` names the source, and runs. */
 static void check_and_run(const char *text, const char *about, const char *run)
 {
@@ -60,7 +73,16 @@ static void every_source_comes_in(void **state)
     (void)state;
     check_and_run(HEAD SEA SOLITARY, "a solitary wave of 0.08 m", "solitary");
     assert_near(highest_of("solitary"), 0.08, 0.012);
-    assert_true(fabs(json_number_of("solitary/summary.json", "sea_J")) > 1);
+    const double sea = json_number_of("solitary/summary.json", "sea_J");
+    assert_true(fabs(sea) > 1);
+    /* Ledger of what crossed: energy, and the mass by which the water has changed. */
+    assert_near(json_number_of("solitary/summary.json", "carried_J") +
+                    json_number_of("solitary/summary.json", "held_J"),
+                sea, 1e-9 * fabs(sea));
+    const double in = json_number_of("solitary/summary.json", "in_kg"),
+                 out = json_number_of("solitary/summary.json", "out_kg");
+    assert_true(in > 0 && out > 0);
+    assert_near(mass_in("solitary", "energy_start") + in - out, mass_in("solitary", "energy_end"), 1e-8 * in);
 
     check_and_run(HEAD "water: {level: 0.4, seed: [2.5, 0.2]}\n"
                        "domain: {min: [2, 0], max: [4, 0.8], sides: {x_min: sea, x_max: sea}}\n"

@@ -82,9 +82,7 @@ static sb_status check(const sb_scene *scene, const sb_model *model, int side, d
 
 sb_status sb_model_sea_sides(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
-    bool any = false;
-    for (int side = 0; side < 4; side++) any |= sb_scene_sea_side(scene, side);
-    if (!any) return SB_OK;
+    if (!sb_scene_has_sea(scene)) return SB_OK;
     if (!scene->sea.present)
         return sb_fail(error, SB_BAD_INPUT,
                        "domain.sides: a side of kind sea, but no water.level: expected the level "
