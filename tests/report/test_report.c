@@ -32,6 +32,30 @@ static void page_of_a_run(void **state)
     sb_free(text);
 }
 
+/* The table of probes has the unit of the plot above it, which is that of the greatest pressure of all. */
+static void one_unit_of_pressure(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *second, *head, *cell, *other;
+    } cases[] = {{"1234", "Greatest pressure, kPa</th>", "<td>1.23</td>", "<td>0.2</td>"},
+                 {"-1234", "Greatest pressure, kPa</th>", "<td>-1.23</td>", "<td>0.2</td>"},
+                 {"123", "Greatest pressure, Pa</th>", "<td>123</td>", "<td>200</td>"},
+                 {"2e7", "Greatest pressure, MPa</th>", "<td>20</td>", "<td>0.0002</td>"}};
+    make_run();
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        char rows[200];
+        snprintf(rows, sizeof rows, "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa\n0.1,a,0,0,0,200\n0.1,b,0,0,0,%s\n",
+                 cases[c].second);
+        write_text("run/probes.csv", rows);
+        char *text = report_text();
+        assert_has(text, cases[c].head);
+        assert_has(text, cases[c].cell);
+        assert_has(text, cases[c].other);
+        sb_free(text);
+    }
+}
+
 /* Both forces are flagged: the page begins with what can be read, and the spacing that 2.5 layers of 0.1 m need. */
 static void what_a_coarse_run_can_tell(void **state)
 {
@@ -266,6 +290,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(page_of_a_run),
+        cmocka_unit_test(one_unit_of_pressure),
         cmocka_unit_test(what_a_coarse_run_can_tell),
         cmocka_unit_test(film_in_the_page),
         cmocka_unit_test(hostile_names),
