@@ -292,6 +292,21 @@ static void progress_prints_when_due(void **state)
     assert_string_equal(duration, "?");
 }
 
+static void a_difference_that_rounds_to_nothing_has_no_sign(void **state)
+{
+    (void)state;
+    static const struct {
+        double percent;
+        const char *text;
+    } cases[] = {{-0.004, "0.00"},  {0.004, "0.00"},  {0, "0.00"},     {-0.0, "0.00"},
+                 {-0.006, "-0.01"}, {0.006, "+0.01"}, {-1.5, "-1.50"}, {12, "+12.00"}};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        char text[32];
+        sb_progress_percent(text, cases[c].percent);
+        assert_string_equal(text, cases[c].text);
+    }
+}
+
 static void progress_prints_settling(void **state)
 {
     (void)state;
@@ -327,6 +342,7 @@ int main(void)
         cmocka_unit_test(a_full_disk_is_reported_by_the_log),
         cmocka_unit_test(grids_begin_with_the_northernmost_row),
         cmocka_unit_test(progress_prints_when_due),
+        cmocka_unit_test(a_difference_that_rounds_to_nothing_has_no_sign),
         cmocka_unit_test(progress_prints_settling),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
