@@ -287,7 +287,7 @@ static sb_status prepare_fields(sb_measure *measure, const sb_measure_view *view
         status = sb_patch_create(measure->scene, measure->model, &settings->probes[i], &measure->patches[i], error);
     for (size_t i = 0; status == SB_OK && i < settings->plane_count; i++)
         status = sb_plane_counter_create(view, &settings->planes[i], &measure->counters[i], error);
-    if (status == SB_OK && settings->map.present) status = sb_map_create(view, &measure->map, error);
+    if (status == SB_OK && settings->map.present) status = sb_map_create(view, measure->model, &measure->map, error);
     return status;
 }
 

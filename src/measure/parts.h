@@ -69,9 +69,9 @@ size_t sb_plane_counter_bytes(const sb_plane_counter *counter);
 void sb_plane_counter_save(const sb_plane_counter *counter, sb_archive_out *out);
 sb_status sb_plane_counter_load(sb_plane_counter *counter, sb_archive_in *in, sb_error *error);
 
-/* Greatest depth, speed, flux and first arrival on a grid. */
+/* Greatest depth, speed, flux and first arrival of standing water on a grid, and the ground there. */
 typedef struct sb_map_field sb_map_field;
-sb_status sb_map_create(const sb_measure_view *view, sb_map_field **map, sb_error *error);
+sb_status sb_map_create(const sb_measure_view *view, const sb_model *model, sb_map_field **map, sb_error *error);
 void sb_map_destroy(sb_map_field *map);
 /* Reads all fluid particles if the time in which a wave crosses half a cell has passed since the last reading. */
 void sb_map_step(sb_map_field *map, const sb_sim *sim);

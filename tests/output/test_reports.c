@@ -245,7 +245,7 @@ static void grids_begin_with_the_northernmost_row(void **state)
 {
     (void)state;
     const float values[] = {1, 2, 3, 4, 5, NAN};
-    const sb_map_record map = {3, 2, 100, -50, 2.5, values, values, values, values, values};
+    const sb_map_record map = {3, 2, 100, -50, 2.5, values, values, values, values, values, NULL};
     assert_int_equal(sb_maps_write(folder, &map, false, NULL), SB_OK);
     const char *const names[] = {"maps/max_depth.asc", "maps/max_speed.asc", "maps/max_momentum_flux.asc",
                                  "maps/arrival_time.asc"};
