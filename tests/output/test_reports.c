@@ -245,11 +245,11 @@ static void grids_begin_with_the_northernmost_row(void **state)
 {
     (void)state;
     const float values[] = {1, 2, 3, 4, 5, NAN};
-    const sb_map_record map = {3, 2, 100, -50, 2.5, values, values, values, values, values, NULL};
+    const sb_map_record map = {3, 2, 100, -50, 2.5, values, values, values, values, values, values};
     assert_int_equal(sb_maps_write(folder, &map, false, NULL), SB_OK);
-    const char *const names[] = {"maps/max_depth.asc", "maps/max_speed.asc", "maps/max_momentum_flux.asc",
-                                 "maps/arrival_time.asc"};
-    for (int i = 0; i < 4; i++) {
+    const char *const names[] = {"maps/max_depth.asc",    "maps/max_speed.asc",       "maps/max_momentum_flux.asc",
+                                 "maps/arrival_time.asc", "maps/inundation_time.asc", "maps/ground.asc"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char *text = text_of(names[i]);
         assert_string_equal(text, "ncols 3\nnrows 2\nxllcorner 100\nyllcorner -50\ncellsize 2.5\n"
                                   "NODATA_value -9999\n4 5 -9999\n1 2 3\n");
