@@ -57,7 +57,7 @@ static const shown all[] = {
     {SB_REPORT_RUNUP,
      "Run-up",
      "Line",
-     "Highest point of the connected water along the line, z in m.",
+     "Highest point that connected water wets along the line, z in m.",
      {{"Highest run-up, z in m", 3, 3},
       {"at, s", 0, 3},
       {"at x, m", 1, 3},
