@@ -16,6 +16,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 static const char help[] =
@@ -208,6 +209,10 @@ static sb_status check_path(const char *path, sb_error *error)
     struct stat found;
     char start[SB_PNG_MARK_WITHIN];
     sb_error reason = {0};
+    const size_t length = strlen(path);
+    if (length < 4 || strcasecmp(path + length - 4, ".png") != 0)
+        return sb_fail(error, SB_BAD_INPUT, "--out %.500s: the picture is a PNG; expected a name that ends in .png",
+                       path);
     if (sb_file_replaceable(path, &reason) != SB_OK) return sb_fail(error, SB_BAD_INPUT, "--out %s", reason.text);
     if (stat(path, &found) != 0 || sb_png_is_own(start, sb_file_start(path, start, sizeof start))) return SB_OK;
     return sb_fail(error, SB_BAD_INPUT, "%.500s: was not written by shorebreak; name another file with -o", path);
@@ -225,10 +230,10 @@ static sb_status preview_scene(const sb_options *options, sb_error *error)
     sb_scene scene = {0};
     sb_model model = {0};
     size_t tiles = 0;
-    sb_status status = sb_options_scene(options, options->positional, &scene, error);
+    sb_status status = check_path(path, error);
+    if (status == SB_OK) status = sb_options_scene(options, options->positional, &scene, error);
     if (status == SB_OK) sb_team_warnings(warn, NULL);
     if (status == SB_OK) status = sb_grid_refuse(&scene, "preview", error);
-    if (status == SB_OK) status = check_path(path, error);
     if (status == SB_OK) status = sb_fit_check(&scene, error);
     if (status == SB_OK) status = sb_model_build(&scene, &model, error);
     for (size_t w = 0; w < model.warning_count; w++) warn(NULL, model.warnings[w]);

@@ -147,11 +147,11 @@ static sb_status open_run(job *j, sb_error *error)
 
 static void report(const job *j, size_t entry, size_t made, double begun, const sb_water_mesh *mesh, double water)
 {
-    char left[32];
+    char left[32], volume[32];
+    sb_progress_percent(volume, water > 0 ? 100 * (sb_water_mesh_volume(mesh) / water - 1) : 0);
     sb_progress_duration(left, (sb_clock() - begun) / (double)made * (double)(j->todo - made));
-    printf("t = %g s: mesh %zu of %zu, %zu triangles, volume %+.2f %% of the particles', %s left\n",
-           j->list.entries[entry].time, made, j->todo, mesh->triangles,
-           water > 0 ? 100 * (sb_water_mesh_volume(mesh) / water - 1) : 0.0, left);
+    printf("t = %g s: mesh %zu of %zu, %zu triangles, volume %s %% of the particles', %s left\n",
+           j->list.entries[entry].time, made, j->todo, mesh->triangles, volume, left);
     fflush(stdout);
 }
 

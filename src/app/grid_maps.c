@@ -27,7 +27,8 @@ sb_status sb_grid_maps_write(const char *directory, const sb_offshore *water, co
         copy[k] = copy_map(from[k], m.columns * m.rows, later[k]);
         if (!copy[k]) status = sb_fail_memory(error, "maps");
     }
-    const sb_map_record map = {m.columns, m.rows, v.x, v.y, v.cell, copy[0], copy[1], copy[2], copy[3], m.duration};
+    const sb_map_record map = {m.columns, m.rows,  v.x,     v.y,        v.cell, copy[0],
+                               copy[1],   copy[2], copy[3], m.duration, NULL};
     if (status == SB_OK) status = sb_maps_write(directory, &map, nested != NULL, error);
     for (size_t k = 0; k < COPIES; k++) sb_free(copy[k]);
     return status;

@@ -3,6 +3,7 @@
 #include "app/grid_picture.h"
 #include "base/memory.h"
 #include "geometry/grid/start.h"
+#include "measure/measure.h"
 
 #include <math.h>
 
@@ -15,8 +16,8 @@ static const double PROGRAM_BYTES = 1e7, GRAPHICS_BYTES = 5e7, FLUID_BYTES = 166
 /* Per pixel of a picture: two layers of water at 16 bytes, colour, depth, the pixels that are read back, their kinds,
    the depths of the bodies, and the rows that are written, plain and packed. Per node of the two grids in which
    pictures find the surface: nodes are 1.5 spacings apart, or farther where there would be too many; the arrays grow by
-   doubling. Per cell of a map. */
-static const double PIXEL_BYTES = 61, NODE_BYTES = 16, NODE_SPACINGS = 1.5, NODES_MAX = 2.5e7, MAP_CELL_BYTES = 36;
+   doubling. Per cell of a map, without what finds standing water. */
+static const double PIXEL_BYTES = 61, NODE_BYTES = 16, NODE_SPACINGS = 1.5, NODES_MAX = 2.5e7, MAP_CELL_BYTES = 48;
 
 /* The part of FLUID_BYTES that is the model, and the model per boundary particle. */
 static const double MODEL_FLUID_BYTES = 56, MODEL_WALL_BYTES = 48;
@@ -119,7 +120,9 @@ static double map_bytes(const sb_scene *scene)
     const sb_map *map = &scene->measure.map;
     if (!map->present) return 0;
     const double rows = scene->dimensions == 2 ? 1 : ceil((map->y_max - map->y_min) / map->cell);
-    return MAP_CELL_BYTES * ceil((map->x_max - map->x_min) / map->cell) * rows;
+    const double height = scene->domain.max.z - scene->domain.min.z;
+    return (MAP_CELL_BYTES + sb_measure_cell_bytes(height, scene->resolution)) *
+           ceil((map->x_max - map->x_min) / map->cell) * rows;
 }
 
 /* Of surface tension: per node of the grid around the water, two nodes per support radius. */

@@ -65,13 +65,19 @@ double sb_depth_near(const sb_report_run *run, const char *body, const sb_grid *
     return most;
 }
 
-void sb_flooded(const sb_grid *wet, const sb_grid *depth, double *area, double *most)
+/* Whether a map is there and has the cells of another one. */
+static bool fits(const sb_grid *map, const sb_grid *other)
 {
-    const bool same = depth->values && depth->columns == wet->columns && depth->rows == wet->rows;
+    return map->values && map->columns == other->columns && map->rows == other->rows;
+}
+
+void sb_flooded(const sb_grid *wet, const sb_grid *depth, const sb_grid *ground, double *area, double *most)
+{
+    const bool same = fits(depth, wet), known = fits(ground, wet);
     size_t cells = 0;
     *most = NAN;
     for (size_t i = 0; i < wet->columns * wet->rows; i++) {
-        if (!(wet->values[i] > 0)) continue;
+        if (!(wet->values[i] > 0) || (known && isnan(ground->values[i]))) continue;
         cells++;
         if (same) *most = fmax(*most, (double)depth->values[i]);
     }

@@ -14,8 +14,10 @@ bool sb_map_of(const sb_report_run *run, const char *name, sb_grid *grid);
    reach there, or the summary has no rectangle (min_m, max_m) of the body. depth: may be empty. */
 double sb_depth_near(const sb_report_run *run, const char *body, const sb_grid *depth);
 
-/* wet: a map whose values are above 0 where ground that was dry at the start became wet. *area, m²: these cells. *most,
-   m: the greatest depth in them; NaN without a map of depths of the same cells. */
-void sb_flooded(const sb_grid *wet, const sb_grid *depth, double *area, double *most);
+/* wet: a map whose values are above 0 where what was dry at the start became wet. ground: the map of the ground that
+   was dry at the start and on which nothing stands, by which cells with buildings, walls and breakwaters are left out;
+   empty, or of other cells: they count, as the run does not know them. *area, m²: these cells. *most, m: the greatest
+   depth in them; NaN without a map of depths of the same cells. */
+void sb_flooded(const sb_grid *wet, const sb_grid *depth, const sb_grid *ground, double *area, double *most);
 
 #endif

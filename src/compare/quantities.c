@@ -125,15 +125,30 @@ static sb_status put_values(const sb_comparison *c, sb_items *all, sb_item_kind 
     return SB_OK;
 }
 
+/* Whether all runs have a map. */
+static bool have_all(const sb_comparison *c, const char *name)
+{
+    bool all = true;
+    for (size_t run = 0; run < c->count && all; run++) {
+        sb_grid grid = {0};
+        all = sb_map_of(&c->runs[run].run, name, &grid);
+        sb_grid_free(&grid);
+    }
+    return all;
+}
+
 static sb_status take_map(const sb_comparison *c, sb_items *all, size_t run, const sb_grid *depth, sb_error *error)
 {
     double values[SB_QUANTITIES_MAX] = {NAN, NAN, NAN, NAN, NAN, NAN};
-    sb_grid wet = {0};
+    sb_grid wet = {0}, ground = {0};
     /* A depth-averaged run has arrival times at sea, too, but times of inundation only on land. */
     if (!sb_map_of(&c->runs[run].run, "inundation_time", &wet) && !sb_map_of(&c->runs[run].run, "arrival_time", &wet))
         return SB_OK;
-    sb_flooded(&wet, depth, &values[0], &values[1]);
+    /* With runs of earlier versions, what stands on the ground counts in all of them. */
+    if (have_all(c, "ground")) sb_map_of(&c->runs[run].run, "ground", &ground);
+    sb_flooded(&wet, depth, &ground, &values[0], &values[1]);
     sb_grid_free(&wet);
+    sb_grid_free(&ground);
     return put_values(c, all, SB_ITEM_MAP, "all", run, values, error);
 }
 

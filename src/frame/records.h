@@ -126,6 +126,8 @@ typedef struct sb_map_record {
     const float
         *arrival; /* s, when the depth at the start, or later the rise above it, was first at least the threshold */
     const float *duration; /* s of inundation of cells that were dry at the start; NULL: not recorded */
+    const float *ground; /* m, z of the ground in the middle of the cell, NaN where a body stands on it, or water stood
+                            at the start; NULL: not recorded */
 } sb_map_record;
 
 #endif

@@ -153,7 +153,7 @@ static sb_status record_instants(sb_measure *measure, const sb_measure_view *vie
         if (!record) return sb_fail_memory(error, "run-up records");
         record->line = i;
         record->time = time;
-        status = sb_runup_read(view, &settings->runups[i], record, error);
+        status = sb_runup_read(view, &settings->runups[i], &measure->shores[i], record, error);
     }
     return status;
 }
@@ -278,6 +278,12 @@ static sb_status prepare_fields(sb_measure *measure, const sb_measure_view *view
         if (settings->gauges[i].water == SB_GAUGE_PARTICLES)
             status = sb_floors_find(measure->scene, measure->model, settings->gauges[i].x, settings->gauges[i].y,
                                     &measure->floors[i], error);
+    if (settings->runup_count) {
+        measure->shores = sb_alloc(settings->runup_count, sizeof *measure->shores);
+        if (!measure->shores) return sb_fail_memory(error, "measure.runups");
+    }
+    for (size_t i = 0; status == SB_OK && i < settings->runup_count; i++)
+        status = sb_shore_find(measure->scene, measure->model, &settings->runups[i], &measure->shores[i], error);
     if (settings->probe_count) {
         measure->patches = sb_alloc(settings->probe_count, sizeof(sb_patch *));
         measure->probes = sb_alloc(settings->probe_count, sizeof *measure->probes);
@@ -287,7 +293,7 @@ static sb_status prepare_fields(sb_measure *measure, const sb_measure_view *view
         status = sb_patch_create(measure->scene, measure->model, &settings->probes[i], &measure->patches[i], error);
     for (size_t i = 0; status == SB_OK && i < settings->plane_count; i++)
         status = sb_plane_counter_create(view, &settings->planes[i], &measure->counters[i], error);
-    if (status == SB_OK && settings->map.present) status = sb_map_create(view, &measure->map, error);
+    if (status == SB_OK && settings->map.present) status = sb_map_create(view, measure->model, &measure->map, error);
     return status;
 }
 
@@ -334,6 +340,9 @@ void sb_measure_destroy(sb_measure *measure)
         sb_patch_destroy(measure->patches[i]);
     for (size_t i = 0; measure->floors && i < measure->scene->measure.gauge_count; i++)
         sb_floors_free(&measure->floors[i]);
+    for (size_t i = 0; measure->shores && i < measure->scene->measure.runup_count; i++)
+        sb_shore_free(&measure->shores[i]);
+    sb_free(measure->shores);
     sb_free(measure->floors);
     sb_free(measure->gauges);
     sb_free(measure->patches);
@@ -473,6 +482,8 @@ size_t sb_measure_bytes(const sb_measure *measure)
         bytes += sizeof *measure->planes + sb_plane_counter_bytes(measure->counters[i]);
     for (size_t i = 0; i < measure->scene->measure.probe_count; i++)
         bytes += sizeof(sb_patch *) + sizeof *measure->probes + sb_patch_bytes(measure->patches[i]);
+    for (size_t i = 0; i < measure->scene->measure.runup_count; i++)
+        bytes += sizeof *measure->shores + measure->shores[i].capacity * sizeof *measure->shores[i].points;
     bytes += measure->split_count * sizeof *measure->split_rows;
     bytes += measure->loads ? sb_loads_bytes(measure->loads) : 0;
     return bytes + (measure->map ? sb_map_bytes(measure->map) : 0);

@@ -60,6 +60,9 @@ sb_status sb_measure_fill_frame(const sb_measure *measure, sb_frame *frame, sb_e
 /* Measurements that this scene does not need (static text). */
 const sb_skipped *sb_measure_skipped(const sb_measure *measure);
 
+/* Heap bytes per cell of a map, besides its values and sums, in a domain of this height (m). */
+double sb_measure_cell_bytes(double height, double spacing);
+
 /* Heap bytes held. */
 size_t sb_measure_bytes(const sb_measure *measure);
 

@@ -52,9 +52,25 @@ typedef struct sb_patch sb_patch;
 sb_status sb_probe_read(const sb_measure_view *view, const sb_probe *probe, const sb_patch *patch, sb_vec3 *velocity,
                         double *pressure, sb_error *error);
 
-/* Sets the `place`, `front` and `apart` of the record. */
-sb_status sb_runup_read(const sb_measure_view *view, const sb_runup_line *line, sb_runup_record *record,
+/* The boundary particles near a run-up line of bodies that do not move, in the order along the line. Zero-initialised:
+   they are not known, and all water counts as if it wetted something. */
+typedef struct sb_shore_point {
+    double along; /* m, from the first end */
+    sb_vec3 at;
+} sb_shore_point;
+typedef struct sb_shore {
+    size_t count, capacity;
+    sb_shore_point *points;
+} sb_shore;
+sb_status sb_shore_find(const sb_scene *scene, const sb_model *model, const sb_runup_line *line, sb_shore *shore,
                         sb_error *error);
+void sb_shore_free(sb_shore *shore);
+/* The place near which all ranks must have the boundary particles. */
+sb_model_place sb_shore_place(const sb_scene *scene, const sb_runup_line *line);
+
+/* Sets the `place`, `front` and `apart` of the record. */
+sb_status sb_runup_read(const sb_measure_view *view, const sb_runup_line *line, const sb_shore *shore,
+                        sb_runup_record *record, sb_error *error);
 
 /* Counts the particles that pass a flow plane, from the side on which each was at the last step. */
 typedef struct sb_plane_counter sb_plane_counter;
@@ -69,9 +85,9 @@ size_t sb_plane_counter_bytes(const sb_plane_counter *counter);
 void sb_plane_counter_save(const sb_plane_counter *counter, sb_archive_out *out);
 sb_status sb_plane_counter_load(sb_plane_counter *counter, sb_archive_in *in, sb_error *error);
 
-/* Greatest depth, speed, flux and first arrival on a grid. */
+/* Greatest depth, speed, flux and first arrival of standing water on a grid, and the ground there. */
 typedef struct sb_map_field sb_map_field;
-sb_status sb_map_create(const sb_measure_view *view, sb_map_field **map, sb_error *error);
+sb_status sb_map_create(const sb_measure_view *view, const sb_model *model, sb_map_field **map, sb_error *error);
 void sb_map_destroy(sb_map_field *map);
 /* Reads all fluid particles if the time in which a wave crosses half a cell has passed since the last reading. */
 void sb_map_step(sb_map_field *map, const sb_sim *sim);

@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "measure/floors.h"
 #include "measure/measure.h"
+#include "measure/parts.h"
 #include "measure/patch.h"
 
 /* A place with a margin for rounding. */
@@ -15,8 +16,8 @@ sb_status sb_measure_places(const sb_scene *scene, sb_model_place **places, size
     const sb_measure_settings *settings = &scene->measure;
     const bool flat = scene->dimensions == 2;
     const double radius = sb_floors_radius(scene);
-    sb_model_place *made =
-        sb_alloc(settings->gauge_count + settings->plane_count + settings->probe_count, sizeof *made);
+    sb_model_place *made = sb_alloc(
+        settings->gauge_count + settings->plane_count + settings->probe_count + settings->runup_count, sizeof *made);
     if (!made) return sb_fail_memory(error, "measurements");
     *count = 0;
     for (size_t i = 0; i < settings->gauge_count; i++) {
@@ -33,6 +34,10 @@ sb_status sb_measure_places(const sb_scene *scene, sb_model_place **places, size
     for (size_t i = 0; i < settings->probe_count; i++)
         made[(*count)++] =
             place(settings->probes[i].at, settings->probes[i].at, sb_patch_range(scene, &settings->probes[i]), false);
+    for (size_t i = 0; i < settings->runup_count; i++) {
+        const sb_model_place of = sb_shore_place(scene, &settings->runups[i]);
+        made[(*count)++] = place(of.at, of.to, of.range, of.column);
+    }
     *places = made;
     return SB_OK;
 }

@@ -7,10 +7,15 @@
    therefore ends the run-up and counts as unconnected water. Otherwise the front would be erratic: a film of a quarter
    of a layer breaks and closes at random, and the front would jump by hundreds of spacings from row to row.
 
+   The highest point is that of the water which wets something: of the particles within h of the ground or a wall, by
+   its boundary particles. Water that is thrown up at a wall beyond its crest, and the crest of a wave in deeper water,
+   are connected, but nothing there becomes wet.
+
    The connected water begins within h of the line's first end or before it, on the line's extension to the domain's
    side. On a line that starts on land the run-up is that of the sea before the line, and there is none until that water
    arrives. If there is no water before the line, for instance because the line starts behind a wave maker, the largest
    body of water along the line is used. */
+#include "base/memory.h"
 #include "measure/parts.h"
 
 #include <stdlib.h>
@@ -31,11 +36,16 @@ static double back_to_side(double place, double u, double min, double max)
     return u < 0 ? (place - max) / u : HUGE_VAL;
 }
 
+static course line_of(const sb_scene *scene, const sb_runup_line *line)
+{
+    bool flat = scene->dimensions == 2;
+    double dx = line->bx - line->ax, dy = flat ? 0 : line->by - line->ay, length = hypot(dx, dy);
+    return (course){line->ax, flat ? 0 : line->ay, length, dx / length, dy / length, 0};
+}
+
 static course course_of(const sb_measure_view *view, const sb_runup_line *line)
 {
-    bool flat = view->scene->dimensions == 2;
-    double dx = line->bx - line->ax, dy = flat ? 0 : line->by - line->ay, length = hypot(dx, dy);
-    course c = {line->ax, flat ? 0 : line->ay, length, dx / length, dy / length, 0};
+    course c = line_of(view->scene, line);
     double before =
         fmin(back_to_side(c.ax, c.ux, view->min.x, view->max.x), back_to_side(c.ay, c.uy, view->min.y, view->max.y));
     c.before = fmax(before, 0); /* a line may start outside */
@@ -170,14 +180,85 @@ static int compare_along(const void *left, const void *right)
     return (a->pressure > b->pressure) - (a->pressure < b->pressure);
 }
 
-/* The highest connected particle within one spacing of the line, which begins at `first`; NaN: none. */
-static sb_vec3 highest(const sb_cloud *cloud, const course *c, double first, double spacing)
+static int compare_points(const void *left, const void *right)
 {
-    const double none = (double)NAN;
+    const sb_shore_point *a = left, *b = right;
+    return (a->along > b->along) - (a->along < b->along);
+}
+
+/* How far from the line particles count, and boundary particles beside these, m. */
+static double shore_reach(const sb_scene *scene)
+{
+    return (1 + scene->numerics.support) * scene->resolution;
+}
+
+sb_model_place sb_shore_place(const sb_scene *scene, const sb_runup_line *line)
+{
+    const course c = line_of(scene, line);
+    const double more = scene->numerics.support * scene->resolution; /* before the first end, particles count, too */
+    return (sb_model_place){.at = sb_vec(c.ax - more * c.ux, c.ay - more * c.uy, 0),
+                            .to = sb_vec(c.ax + c.length * c.ux, c.ay + c.length * c.uy, 0),
+                            .range = shore_reach(scene),
+                            .column = true};
+}
+
+sb_status sb_shore_find(const sb_scene *scene, const sb_model *model, const sb_runup_line *line, sb_shore *shore,
+                        sb_error *error)
+{
+    const course c = line_of(scene, line);
+    const double reach = shore_reach(scene), first = -scene->numerics.support * scene->resolution;
+    for (size_t b = 0; b < model->body_count && model->wall_position; b++) {
+        const sb_model_body *body = &model->bodies[b];
+        if (body->wavemaker >= 0) continue;
+        for (size_t i = body->begin; i < body->begin + body->count; i++) {
+            const sb_vec3 at = model->wall_position[i];
+            if (!(distance_to(&c, at, first) <= reach)) continue;
+            if (sb_grow((void **)&shore->points, &shore->capacity, shore->count + 1, sizeof *shore->points) != 0)
+                return sb_fail_memory(error, "the ground of run-up lines");
+            shore->points[shore->count++] = (sb_shore_point){along(&c, at), at};
+        }
+    }
+    if (shore->count > 1) qsort(shore->points, shore->count, sizeof *shore->points, compare_points);
+    return SB_OK;
+}
+
+void sb_shore_free(sb_shore *shore)
+{
+    sb_free(shore->points);
+    *shore = (sb_shore){0};
+}
+
+/* Whether a particle wets the ground or a wall: it is within h of it. */
+static bool wets(const sb_shore *shore, const course *c, sb_vec3 place, double support)
+{
+    const double from = along(c, place) - support;
+    size_t low = 0, high = shore->count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (shore->points[middle].along < from)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    for (size_t i = low; i < shore->count && shore->points[i].along <= from + 2 * support; i++) {
+        const sb_vec3 d = sb_sub(place, shore->points[i].at);
+        if (sb_dot(d, d) < support * support) return true;
+    }
+    return shore->count == 0;
+}
+
+/* The highest connected particle within one spacing of the line, which begins at `first`, that wets something; NaN:
+   none. */
+static sb_vec3 highest(const sb_measure_view *view, const course *c, const sb_shore *shore, double first)
+{
+    const sb_cloud *cloud = view->cloud;
+    const double none = (double)NAN, spacing = view->scene->resolution;
+    const double support = view->scene->numerics.support * spacing;
     sb_vec3 best = sb_vec(none, none, none);
     for (size_t i = 0; i < cloud->count; i++) {
         const sb_vec3 place = cloud->samples[i].position;
-        if (cloud->marks[i] && distance_to(c, place, first) <= spacing && !(place.z <= best.z)) best = place;
+        if (!cloud->marks[i] || !(distance_to(c, place, first) <= spacing) || place.z <= best.z) continue;
+        if (wets(shore, c, place, support)) best = place;
     }
     return best;
 }
@@ -220,16 +301,16 @@ static double length_apart(const sb_cloud *cloud, const course *c, double half)
     return sum;
 }
 
-sb_status sb_runup_read(const sb_measure_view *view, const sb_runup_line *line, sb_runup_record *record,
-                        sb_error *error)
+sb_status sb_runup_read(const sb_measure_view *view, const sb_runup_line *line, const sb_shore *shore,
+                        sb_runup_record *record, sb_error *error)
 {
     const double spacing = view->scene->resolution, half = 0.5 * spacing;
     const course c = course_of(view, line);
     sb_cloud *cloud = view->cloud;
     sb_status status = mark_connected(view, &c, error);
     if (status != SB_OK) return status;
-    sb_vec3 place = highest(cloud, &c, 0, spacing);
-    if (isnan(place.z)) place = highest(cloud, &c, -view->scene->numerics.support * spacing, spacing);
+    sb_vec3 place = highest(view, &c, shore, 0);
+    if (isnan(place.z)) place = highest(view, &c, shore, -view->scene->numerics.support * spacing);
     keep_line(cloud, &c, spacing);
     double front = 0;
     for (size_t i = 0; i < cloud->count; i++) {

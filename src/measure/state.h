@@ -62,6 +62,7 @@ struct sb_measurements {
     sb_plane_record **records; /* one per plane, NULL for planes without; NULL: no plane has one */
     sb_floors *floors;         /* one per gauge */
     gauge_state *gauges;
+    sb_shore *shores;   /* one per run-up line */
     sb_patch **patches; /* one per probe */
     probe_state *probes;
     split_state *splits;              /* one per set of measure.reflections */

@@ -14,6 +14,8 @@ const sb_map_row sb_map_rows[] = {
      "0 '#440154', 0.5 '#21918c', 1 '#fde725'", false},
     {"inundation_time", "grid_inundation_time", offsetof(sb_map_record, duration), "duration of inundation (s)",
      "0 '#ffffff', 0.02 '#e5f5e0', 0.5 '#41ab5d', 1 '#00441b'", true},
+    {"ground", "grid_ground", offsetof(sb_map_record, ground), "ground (z, m)",
+     "0 '#3b5b7a', 0.35 '#d8c9a3', 0.6 '#8fae7a', 1 '#7a5a3a'", false},
     {.name = NULL},
 };
 

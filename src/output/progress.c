@@ -20,6 +20,14 @@ void sb_progress_duration(char out[32], double seconds)
         snprintf(out, 32, "%lds", s);
 }
 
+void sb_progress_percent(char out[32], double percent)
+{
+    if (fabs(percent) < 0.005)
+        snprintf(out, 32, "0.00");
+    else
+        snprintf(out, 32, "%+.2f", percent);
+}
+
 void sb_progress_begin(sb_progress *progress, FILE *stream, double duration)
 {
     double now = sb_clock();

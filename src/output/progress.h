@@ -54,4 +54,7 @@ void sb_progress_end(sb_progress *progress, const sb_step_report *report);
 /* Writes a duration as "1h 02m", "3m 05s" or "12s" into out; "?" if it is not known. */
 void sb_progress_duration(char out[32], double seconds);
 
+/* Writes a difference in per cent with its sign and two digits into out; what rounds to 0 is "0.00". */
+void sb_progress_percent(char out[32], double percent);
+
 #endif

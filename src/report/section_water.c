@@ -18,9 +18,11 @@ static size_t greatest_row(const sb_series_table *table, const sb_series *series
     return best;
 }
 
-static void put_value(FILE *out, const sb_series_table *table, const sb_series *series, size_t row, size_t column)
+static void put_value(FILE *out, const sb_series_table *table, const sb_series *series, size_t row, size_t column,
+                      double scale)
 {
-    sb_html_put(out, "<td>%g</td>", row == SIZE_MAX ? (double)NAN : sb_series_table_value(table, series, row, column));
+    const double value = row == SIZE_MAX ? (double)NAN : sb_series_table_value(table, series, row, column);
+    sb_html_put(out, "<td>%g</td>", scale * value);
 }
 
 static void put_csv(FILE *out, const char *table, const sb_series *series)
@@ -30,6 +32,9 @@ static void put_csv(FILE *out, const char *table, const sb_series *series)
         "<td class=\"csv\"><a class=\"csv\" data-table=\"%s\" data-name=\"%s\" href=\"#water\">CSV</a></td></tr>\n",
         table, series->name);
 }
+
+/* Of the table of probes. Its head in the page has no unit, which follows from the values. */
+enum { PRESSURE = 4 };
 
 /* The columns of a table that the page shows, by its greatest values. */
 typedef struct shown {
@@ -52,7 +57,7 @@ static const shown all[] = {
     {SB_REPORT_RUNUP,
      "Run-up",
      "Line",
-     "Highest point of the connected water along the line, z in m.",
+     "Highest point that connected water wets along the line, z in m.",
      {{"Highest run-up, z in m", 3, 3},
       {"at, s", 0, 3},
       {"at x, m", 1, 3},
@@ -66,8 +71,20 @@ static const shown all[] = {
      "Pressure at probes",
      "Probe",
      "Pressure. A gap: the place is dry.",
-     {{"Greatest pressure, Pa", 4, 4}, {"at, s", 0, 4}}},
+     {{"Greatest pressure", PRESSURE, PRESSURE}, {"at, s", 0, 4}}},
 };
+
+/* The unit that the plot above the table has (prefix in page/report.js). Returns the factor from Pa. */
+static double pressure_unit(const sb_plot *plot, const char **name)
+{
+    double most = 0;
+    for (size_t i = 0; i < plot->count; i++)
+        for (size_t row = 0; row < plot->lines[i].series->rows; row++)
+            most = fmax(most, fabs(sb_series_table_value(plot->lines[i].table, plot->lines[i].series, row, PRESSURE)));
+    const bool mega = most >= 1e7, kilo = most >= 1e3;
+    *name = mega ? "MPa" : kilo ? "kPa" : "Pa";
+    return mega ? 1e-6 : kilo ? 1e-3 : 1;
+}
 
 static void put_shown(FILE *out, const sb_report_page *page, const shown *s)
 {
@@ -78,13 +95,19 @@ static void put_shown(FILE *out, const sb_report_page *page, const shown *s)
     sb_html_put(out, "<h3>%s%s</h3>", s->title, flat ? ", per metre of width" : "");
     sb_plot_put(out, &page->plots[s->table], s->caption);
     sb_html_put(out, "<div class=\"wide\"><table><thead><tr><th>%s</th>", s->item);
-    for (size_t c = 0; c < 4 && s->cells[c].head; c++) sb_html_put(out, "<th>%s</th>", s->cells[c].head);
+    double scales[4] = {1, 1, 1, 1};
+    for (size_t c = 0; c < 4 && s->cells[c].head; c++) {
+        const char *unit = NULL;
+        if (s->table == SB_REPORT_PROBES && s->cells[c].column == PRESSURE)
+            scales[c] = pressure_unit(&page->plots[s->table], &unit);
+        sb_html_put(out, "<th>%s%s%s</th>", s->cells[c].head, unit ? ", " : "", unit ? unit : "");
+    }
     fputs("<th class=\"csv\">Series</th></tr></thead><tbody>\n", out);
     for (size_t i = 0; i < page->plots[s->table].count; i++) {
         const sb_series *series = &table->series[i];
         sb_html_put(out, "<tr><th scope=\"row\">%s</th>", series->name);
         for (size_t c = 0; c < 4 && s->cells[c].head; c++)
-            put_value(out, table, series, greatest_row(table, series, s->cells[c].of), s->cells[c].column);
+            put_value(out, table, series, greatest_row(table, series, s->cells[c].of), s->cells[c].column, scales[c]);
         put_csv(out, name, series);
     }
     fputs("</tbody></table></div>\n", out);

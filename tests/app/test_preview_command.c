@@ -62,6 +62,9 @@ static void bad_input_is_one_line(void **state)
     char *notes = text_of("notes.png");
     assert_string_equal(notes, "my notes");
     sb_free(notes);
+    REFUSES("--out a.jpg: the picture is a PNG; expected a name that ends in .png", "tank3.yaml", "-o", "a.jpg");
+    REFUSES("--out png: the picture is a PNG; expected a name that ends in .png", "tank3.yaml", "--out", "png");
+    assert_false(exists("a.jpg"));
     REFUSES("-o: needs a value", "tank3.yaml", "-o");
     REFUSES("--resume: not an option of this command", "tank3.yaml", "--resume");
     REFUSES("none.yaml: cannot read", "none.yaml");

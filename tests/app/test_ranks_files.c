@@ -135,6 +135,33 @@ static void assert_same_state(const char *a, const char *b)
     sb_free(bytes[1]);
 }
 
+/* Maps with a terrain, and run-up over it: of one process, of three ranks, and resumed by one of them. */
+static void maps_of_a_terrain_do_not_depend_on_the_ranks(void **state)
+{
+    (void)state;
+    NEEDS_MPI();
+    write_text("ground.obj", "v -1 -1 -0.2\nv 1.5 -1 -0.2\nv 1.5 2 -0.2\nv -1 2 -0.2\nv 5 -1 0.5\nv 5 2 0.5\n"
+                             "f 1 2 3\nf 1 3 4\nf 2 5 6\nf 2 6 3\n");
+    write_text("land.yaml", "resolution: 0.1\n"
+                            "duration: 0.8\n"
+                            "domain: {min: [0, 0, -0.2], max: [4, 1, 2]}\n"
+                            "water: {boxes: [{min: [0, 0, -0.2], max: [0.8, 1, 0.6]}]}\n"
+                            "bodies:\n"
+                            "  - {name: ground, shape: mesh, file: ground.obj, role: terrain}\n"
+                            "  - {name: hut, shape: box, min: [2.2, 0.3, -0.1], max: [2.4, 0.7, 0.3]}\n"
+                            "measure:\n"
+                            "  interval: 0.02\n"
+                            "  runups: [{name: slope, from: [0.9, 0.5], to: [4, 0.5]}]\n"
+                            "  map: {cell: 0.05}\n"
+                            "output: {plots: false}\n");
+    RUN_ON("1", 0, "land.yaml", "--out", "land-one", "--quiet");
+    RUN_ON("3", 0, "land.yaml", "--out", "land-three", "--quiet", "--until", "0.5");
+    RUN_AND_FORGET(0, "run", "land.yaml", "--out", "land-three", "--quiet", "--resume");
+    static const char *const files[] = {"runup.csv",          "maps/ground.asc",       "maps/max_depth.asc",
+                                        "maps/max_speed.asc", "maps/arrival_time.asc", "maps/max_momentum_flux.asc"};
+    for (size_t f = 0; f < sizeof files / sizeof *files; f++) assert_same_file("land-one", "land-three", files[f]);
+}
+
 static void checkpoints_have_the_bytes_of_one_process(void **state)
 {
     char names[2][16][64], path[2][128];
@@ -217,6 +244,7 @@ int main(void)
         cmocka_unit_test(a_piece_that_cannot_be_written_is_missed),
         cmocka_unit_test(pictures_are_drawn_from_pieces),
         cmocka_unit_test(loads_of_faces_do_not_depend_on_the_ranks),
+        cmocka_unit_test(maps_of_a_terrain_do_not_depend_on_the_ranks),
         cmocka_unit_test(checkpoints_have_the_bytes_of_one_process),
         cmocka_unit_test(a_full_disk_of_one_rank_leaves_the_checkpoint_before),
     };

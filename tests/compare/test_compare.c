@@ -102,6 +102,39 @@ static void two_scenes(void **state)
     sb_free(csv);
 }
 
+static void write_ground(const char *run, const char *rows)
+{
+    FILE *f = open_text(run, "maps/ground.asc");
+    fprintf(f, "ncols 4\nnrows 4\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n%s", rows);
+    assert_int_equal(fclose(f), 0);
+}
+
+/* A wall in column 2 is no ground, and column 3 of the first row was under water at the start. */
+static void crests_are_no_ground(void **state)
+{
+    (void)state;
+    static const char rows[] = "1 1 -9999 1\n1 1 -9999 1\n1 1 -9999 1\n1 1 -9999 -9999\n";
+    make_run_of((made_run){.name = "low", .seed = 1, .wall = 0.5, .factor = 2});
+    make_run_of((made_run){.name = "high", .seed = 1, .wall = 1.5, .factor = 1});
+    write_ground("low", rows);
+    sb_error error = {0};
+    /* One of the runs is of an earlier version: the walls count in both. */
+    if (COMPARE(&error, "low", "high") != SB_OK) fail_msg("%s", error.text);
+    char *csv = text_of("out/compare.csv");
+    assert_row(csv, "map,all,flooded_area,m²,low", 8, 8, 8, NAN);
+    assert_row(csv, "map,all,flooded_area,m²,high", 6, 6, 6, -2);
+    sb_free(csv);
+    write_ground("high", rows);
+    if (COMPARE(&error, "low", "high") != SB_OK) fail_msg("%s", error.text);
+    csv = text_of("out/compare.csv");
+    assert_row(csv, "map,all,flooded_area,m²,low", 3, 3, 3, NAN);
+    assert_row(csv, "map,all,flooded_area,m²,high", 2, 2, 2, -1);
+    assert_row(csv, "map,all,flooded_depth,m,high", 23, 23, 23, 23 - 66);
+    sb_free(csv);
+    assert_int_equal(unlink(in_folder("low/maps/ground.asc")), 0);
+    assert_int_equal(unlink(in_folder("high/maps/ground.asc")), 0);
+}
+
 static void map_of_the_difference(void **state)
 {
     (void)state;
@@ -339,6 +372,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(two_scenes, empty_out),
+        cmocka_unit_test_setup(crests_are_no_ground, empty_out),
         cmocka_unit_test_setup(map_of_the_difference, empty_out),
         cmocka_unit_test_setup(seeds_are_error_bars, empty_out),
         cmocka_unit_test_setup(what_cannot_be_compared, empty_out),

@@ -3,6 +3,7 @@
 
 #include <setjmp.h>
 #include <stdarg.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -80,12 +81,12 @@ static void runup_is_the_top_of_connected_water(void **state)
     const sb_runup_line line = {"beach", 0, 5, 40, 5};
     sb_measure_view view = fake_view(&world);
     sb_runup_record record;
-    assert_int_equal(sb_runup_read(&view, &line, &record, NULL), SB_OK);
+    assert_int_equal(sb_runup_read(&view, &line, &(sb_shore){0}, &record, NULL), SB_OK);
     assert_true(fabs(record.place.x - 19.75) < 1e-9);
     assert_true(fabs(record.place.z - (0.25 * 19.75 + 1.0)) < 1e-9);
     assert_true(fabs(record.front - 20) < 1e-9);
     const sb_runup_line away = {"away", 30, 5, 40, 5};
-    assert_int_equal(sb_runup_read(&view, &away, &record, NULL), SB_OK);
+    assert_int_equal(sb_runup_read(&view, &away, &(sb_shore){0}, &record, NULL), SB_OK);
     assert_true(isnan(record.place.z) && isnan(record.front));
     fake_world_free(&world);
 }
@@ -109,9 +110,9 @@ static void front_is_the_extent_of_connected_water(void **state)
         const sb_runup_line little = {"little", 0, 5, back ? -5 : 5, 5};
         sb_measure_view view = fake_view(&world);
         sb_runup_record record;
-        assert_int_equal(sb_runup_read(&view, &line, &record, NULL), SB_OK);
+        assert_int_equal(sb_runup_read(&view, &line, &(sb_shore){0}, &record, NULL), SB_OK);
         assert_true(fabs(record.front - (extent + 2)) <= 0.2 * spacing);
-        assert_int_equal(sb_runup_read(&view, &little, &record, NULL), SB_OK);
+        assert_int_equal(sb_runup_read(&view, &little, &(sb_shore){0}, &record, NULL), SB_OK);
         assert_true(fabs(record.front - 5) < 1e-9);
         fake_world_free(&world);
     }
@@ -130,7 +131,7 @@ static void front_follows_a_thin_film(void **state)
         const sb_runup_line line = {"floor", 0, 0, 40, 0};
         sb_measure_view view = fake_view(&world);
         sb_runup_record record;
-        assert_int_equal(sb_runup_read(&view, &line, &record, NULL), SB_OK);
+        assert_int_equal(sb_runup_read(&view, &line, &(sb_shore){0}, &record, NULL), SB_OK);
         double front = (torn ? last : last + 5 * gap) + spacing / 2;
         assert_true(fabs(record.front - front) < 1e-9);
         fake_world_free(&world);
@@ -150,7 +151,7 @@ static void map_conserves_volume(void **state)
         world.scene.measure.map = (sb_map){true, 0, 0, 12, 12, cells[c], 0.5};
         sb_measure_view view = fake_view(&world);
         sb_map_field *map;
-        assert_int_equal(sb_map_create(&view, &map, NULL), SB_OK);
+        assert_int_equal(sb_map_create(&view, &world.model, &map, NULL), SB_OK);
         const sb_map_record *result = sb_map_result(map);
         double volume = 0, deepest = 0;
         for (size_t i = 0; i < result->columns * result->rows; i++) {
@@ -179,7 +180,7 @@ static void map_contains_arrival_times(void **state)
     world.scene.measure.map = (sb_map){true, 0, 0, 20, 4, 1, 1.5};
     sb_measure_view view = fake_view(&world);
     sb_map_field *map;
-    assert_int_equal(sb_map_create(&view, &map, NULL), SB_OK);
+    assert_int_equal(sb_map_create(&view, &world.model, &map, NULL), SB_OK);
     for (int k = 0; k < 600; k++) {
         fake_step(&world.sim, 0.01);
         sb_map_step(map, &world.sim);
@@ -191,6 +192,129 @@ static void map_contains_arrival_times(void **state)
     assert_true(result->arrival[2 * 20 + 1] == 0);    /* wet from the start */
     assert_true(isnan(result->depth[2 * 20 + 19]));
     sb_map_destroy(map);
+    fake_world_free(&world);
+}
+
+/* Adds a rectangle that faces upwards to a world, as a body of its own. */
+static void add_rectangle(fake_world *world, sb_role role, sb_vec3 low, sb_vec3 high)
+{
+    sb_model *model = &world->model;
+    static sb_model_body bodies[4];
+    sb_model_body *body = &bodies[model->body_count++];
+    *body = (sb_model_body){.wavemaker = -1, .source = SIZE_MAX, .role = role};
+    assert_int_equal(sb_mesh_alloc(&body->mesh, 4, 2, NULL), SB_OK);
+    /* z rises along x from low.z to high.z. */
+    body->mesh.vertices[0] = low;
+    body->mesh.vertices[1] = sb_vec(high.x, low.y, high.z);
+    body->mesh.vertices[2] = high;
+    body->mesh.vertices[3] = sb_vec(low.x, high.y, low.z);
+    static const uint32_t corners[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    memcpy(body->mesh.triangles, corners, sizeof corners);
+    model->bodies = bodies;
+}
+
+static void free_bodies(fake_world *world)
+{
+    for (size_t b = 0; b < world->model.body_count; b++) sb_mesh_free(&world->model.bodies[b].mesh);
+}
+
+/* Drops in flight, and a jet that has left the ground, are in none of the maps, over land and over water; water on the
+   ground, on a slope, on a roof and below a deck is, with all of its volume. */
+static void maps_are_of_standing_water(void **state)
+{
+    (void)state;
+    static const double cells[] = {0.13, 0.5, 1, 2};
+    for (int k = 0; k < 8; k++) {
+        const double cell = cells[k / 2];
+        const int dimensions = 2 + k % 2;
+        fake_world world;
+        fake_world_make(&world, dimensions, 0.5, sb_vec(0, 0, -1), sb_vec(60, 8, 30));
+        add_rectangle(&world, SB_ROLE_TERRAIN, sb_vec(0, -1, 0), sb_vec(40, 9, 0));
+        add_rectangle(&world, SB_ROLE_TERRAIN, sb_vec(40, -1, 0), sb_vec(60, 9, 10)); /* a slope of 1 : 2 */
+        add_rectangle(&world, SB_ROLE_SOLID, sb_vec(20, -1, 6), sb_vec(30, 9, 6));    /* a deck */
+        fake_fill(&world, sb_vec(1, 1, 0), sb_vec(10, 7, 4), 0, 0, 0.2, 1);
+        fake_fill(&world, sb_vec(20, 1, 0), sb_vec(24, 7, 2), 0, 0, 0.2, 2);   /* below the deck */
+        fake_fill(&world, sb_vec(26, 1, 6), sb_vec(30, 7, 7.5), 0, 0, 0.2, 3); /* on it */
+        for (double x = 40.25; x < 60; x += 0.5)
+            for (double y = 1.25; y < (dimensions == 2 ? 1.5 : 7); y += 0.5)
+                fake_add(&world.sim, sb_vec(x, dimensions == 2 ? 0 : y, 0.5 * (x - 40) + 0.25), sb_vec(0, 0, 0), 0);
+        const double standing = 9 * 4 + 4 * 2 + 4 * 1.5 + 20 * 0.5;
+        /* In the air: a drop over each, and a jet of 3 m whose foot is 2 m above the ground. */
+        for (double x = 1.25; x < 60; x += 4)
+            fake_add(&world.sim, sb_vec(x, dimensions == 2 ? 0 : 4, 16), sb_vec(9, 0, 0), 0);
+        fake_fill(&world, sb_vec(14, 1, 2), sb_vec(15, 7, 5), 0, 0, 0, 4);
+        world.scene.measure.map = (sb_map){true, 0, 0, 60, 8, cell, 0.4};
+        sb_measure_view view = fake_view(&world);
+        sb_map_field *map;
+        assert_int_equal(sb_map_create(&view, &world.model, &map, NULL), SB_OK);
+        const sb_map_record *result = sb_map_result(map);
+        double volume = 0;
+        for (size_t i = 0; i < result->columns * result->rows; i++) {
+            const double x = ((double)(i % result->columns) + 0.5) * cell;
+            const bool land = (x > 10.5 + cell && x < 19.5 - cell) || (x > 30.5 + cell && x < 39.5 - cell);
+            if (land) assert_true(isnan(result->depth[i]) && isnan(result->speed[i]) && isnan(result->arrival[i]));
+            if (!isnan(result->speed[i])) assert_true(result->speed[i] == 0);
+            if (!isnan(result->depth[i]))
+                volume += (double)result->depth[i] * fmin(cell, 60 - x + cell / 2) *
+                          (dimensions == 2 ? 1 : fmin(cell, 8 - (double)(i / result->columns) * cell));
+        }
+        /* The ground: bare land, neither below water at the start nor below the deck. */
+        for (size_t i = 0; i < result->columns * result->rows; i++) {
+            const double x = ((double)(i % result->columns) + 0.5) * cell;
+            if (x > 11 + cell && x < 19 - cell) assert_true(result->ground[i] == 0);
+            if (x > 1 && x < 10 && dimensions == 2) assert_true(isnan(result->ground[i]));
+            if (x > 20 && x < 30) assert_true(isnan(result->ground[i]));
+            if (x > 31 + cell && x < 39.5 - cell) assert_true(result->ground[i] == 0);
+        }
+        const double whole = standing * (dimensions == 2 ? 1 : 6);
+        if (fabs(volume - whole) > 1e-3 * whole)
+            fail_msg("cells of %g m in %d dimensions: %g of %g", cell, dimensions, volume, whole);
+        sb_map_destroy(map);
+        free_bodies(&world);
+        fake_world_free(&world);
+    }
+}
+
+/* A map that is loaded has the ground of the start, not that which is dry when the run continues, and all values. */
+static void a_loaded_map_has_the_ground_of_the_start(void **state)
+{
+    (void)state;
+    fake_world world;
+    fake_world_make(&world, 3, 0.5, sb_vec(0, 0, -1), sb_vec(20, 4, 10));
+    add_rectangle(&world, SB_ROLE_TERRAIN, sb_vec(0, -1, 0), sb_vec(20, 5, 0));
+    fake_fill(&world, sb_vec(0, 0, 0), sb_vec(4, 4, 3), 0, 0, 0, 1);
+    drift(&world.sim, sb_vec(2, 0, 0));
+    world.scene.measure.map = (sb_map){true, 0, 0, 20, 4, 1, 1.5};
+    sb_measure_view view = fake_view(&world);
+    sb_map_field *map, *loaded;
+    sb_archive_out out = {0};
+    sb_archive_in in;
+    assert_int_equal(sb_map_create(&view, &world.model, &map, NULL), SB_OK);
+    for (int k = 0; k < 200; k++) {
+        fake_step(&world.sim, 0.02);
+        sb_map_step(map, &world.sim);
+    }
+    sb_archive_begin(&out, "TEST", 1);
+    sb_archive_section(&out, "map");
+    sb_map_save(map, &out);
+    assert_int_equal(sb_archive_close(&out, NULL), SB_OK);
+    view = fake_view(&world);
+    assert_int_equal(sb_map_create(&view, &world.model, &loaded, NULL), SB_OK);
+    const sb_map_record *a = sb_map_result(map), *b = sb_map_result(loaded);
+    assert_true(isnan(a->ground[2]) && a->ground[10] == 0 && b->ground[2] == 0 && isnan(b->ground[10]));
+    assert_int_equal(sb_archive_parse(&in, "saved", out.bytes, out.used, "TEST", 1, NULL), SB_OK);
+    assert_int_equal(sb_archive_enter(&in, "map", NULL), SB_OK);
+    sb_map_load(loaded, &in);
+    assert_int_equal(sb_archive_leave(&in, NULL), SB_OK);
+    const size_t bytes = a->columns * a->rows * sizeof(float);
+    assert_memory_equal(a->ground, b->ground, bytes);
+    assert_memory_equal(a->depth, b->depth, bytes);
+    assert_memory_equal(a->arrival, b->arrival, bytes);
+    sb_archive_in_free(&in);
+    sb_archive_out_free(&out);
+    sb_map_destroy(map);
+    sb_map_destroy(loaded);
+    free_bodies(&world);
     fake_world_free(&world);
 }
 
@@ -259,6 +383,8 @@ int main(void)
         cmocka_unit_test(front_follows_a_thin_film),
         cmocka_unit_test(map_conserves_volume),
         cmocka_unit_test(map_contains_arrival_times),
+        cmocka_unit_test(maps_are_of_standing_water),
+        cmocka_unit_test(a_loaded_map_has_the_ground_of_the_start),
         cmocka_unit_test(depth_of_still_water_at_faces),
         cmocka_unit_test(flow_depth_is_that_of_the_approaching_water),
     };

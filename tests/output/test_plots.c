@@ -68,7 +68,7 @@ static void write_maps(bool beside)
     for (int j = 0; j < ROWS; j++)
         for (int i = 0; i < COLUMNS; i++)
             values[j * COLUMNS + i] = i > 100 + j / 10 ? NAN : (float)(38 - 0.3 * i + 0.05 * j);
-    const sb_map_record map = {COLUMNS, ROWS, 0, -575, 10, values, values, values, values, values};
+    const sb_map_record map = {COLUMNS, ROWS, 0, -575, 10, values, values, values, values, values, NULL};
     assert_int_equal(sb_maps_write(folder, &map, beside, NULL), SB_OK);
 }
 

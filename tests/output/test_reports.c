@@ -245,11 +245,11 @@ static void grids_begin_with_the_northernmost_row(void **state)
 {
     (void)state;
     const float values[] = {1, 2, 3, 4, 5, NAN};
-    const sb_map_record map = {3, 2, 100, -50, 2.5, values, values, values, values, values};
+    const sb_map_record map = {3, 2, 100, -50, 2.5, values, values, values, values, values, values};
     assert_int_equal(sb_maps_write(folder, &map, false, NULL), SB_OK);
-    const char *const names[] = {"maps/max_depth.asc", "maps/max_speed.asc", "maps/max_momentum_flux.asc",
-                                 "maps/arrival_time.asc"};
-    for (int i = 0; i < 4; i++) {
+    const char *const names[] = {"maps/max_depth.asc",    "maps/max_speed.asc",       "maps/max_momentum_flux.asc",
+                                 "maps/arrival_time.asc", "maps/inundation_time.asc", "maps/ground.asc"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char *text = text_of(names[i]);
         assert_string_equal(text, "ncols 3\nnrows 2\nxllcorner 100\nyllcorner -50\ncellsize 2.5\n"
                                   "NODATA_value -9999\n4 5 -9999\n1 2 3\n");
@@ -292,6 +292,21 @@ static void progress_prints_when_due(void **state)
     assert_string_equal(duration, "?");
 }
 
+static void a_difference_that_rounds_to_nothing_has_no_sign(void **state)
+{
+    (void)state;
+    static const struct {
+        double percent;
+        const char *text;
+    } cases[] = {{-0.004, "0.00"},  {0.004, "0.00"},  {0, "0.00"},     {-0.0, "0.00"},
+                 {-0.006, "-0.01"}, {0.006, "+0.01"}, {-1.5, "-1.50"}, {12, "+12.00"}};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        char text[32];
+        sb_progress_percent(text, cases[c].percent);
+        assert_string_equal(text, cases[c].text);
+    }
+}
+
 static void progress_prints_settling(void **state)
 {
     (void)state;
@@ -327,6 +342,7 @@ int main(void)
         cmocka_unit_test(a_full_disk_is_reported_by_the_log),
         cmocka_unit_test(grids_begin_with_the_northernmost_row),
         cmocka_unit_test(progress_prints_when_due),
+        cmocka_unit_test(a_difference_that_rounds_to_nothing_has_no_sign),
         cmocka_unit_test(progress_prints_settling),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);

@@ -8,19 +8,22 @@ static void page_of_a_run(void **state)
     (void)state;
     make_run();
     char *text = report_text();
-    static const char *const parts[] = {SB_REPORT_START,
-                                        "<title>A quiet basin</title>",
-                                        "Run complete, 10 s simulated",
-                                        "id=\"loads\"",
-                                        "<b>body-0</b> 2.5",
-                                        "<b>body-1</b> 0.07 m",
-                                        "a thin plate",
-                                        "shorebreak run &#39;a b.yaml&#39; --quiet",
-                                        "in /somewhere",
-                                        "title: A quiet basin",
-                                        "compressed by 0.01 % on average",
-                                        "id=\"data\"",
-                                        "add up to its total change within less than 0.01 %"};
+    static const char *const parts[] = {
+        SB_REPORT_START,
+        "<title>A quiet basin</title>",
+        "Run complete, 10 s simulated",
+        "id=\"loads\"",
+        "<b>body-0</b> 2.5",
+        "<b>body-1</b> 0.07 m",
+        "a thin plate",
+        "shorebreak run &#39;a b.yaml&#39; --quiet",
+        "in /somewhere",
+        "title: A quiet basin",
+        "compressed by 0.01 % on average: up to 1 % pressures as a whole are not in doubt",
+        "in which it was worst, by 1 %.",
+        "<b class=\"mark\">good</b><div><b>Density.</b>",
+        "id=\"data\"",
+        "add up to its total change within less than 0.01 %"};
     for (size_t p = 0; p < sizeof parts / sizeof *parts; p++) assert_has(text, parts[p]);
     assert_null(strstr(text, "Missing or damaged files"));
     /* No address is opened: dygraphs and the styles are in the page. */
@@ -30,6 +33,50 @@ static void page_of_a_run(void **state)
     /* The greater load comes first. */
     assert_true(strstr(text, "row\">body-1") < strstr(text, "row\">body-0"));
     sb_free(text);
+}
+
+/* A density that is good on average beside a particle that was pressed together: the words fit both. */
+static void density_of_the_worst_particle(void **state)
+{
+    (void)state;
+    make_run();
+    write_text("run/summary.json", "{\"status\":\"done\",\"compression_mean\":0.0008,\"compression_max\":0.511,"
+                                   "\"capped_steps\":0}");
+    char *text = report_text();
+    assert_has(text, "<b class=\"mark\">note</b><div><b>Density.</b>");
+    assert_has(text, "by 0.08 % on average: up to 1 % pressures as a whole are not in doubt. A single particle, in the "
+                     "step in which it was worst, by 51.1 %. That is water that hits a wall or other water: do not");
+    sb_free(text);
+    write_text("run/summary.json", "{\"status\":\"done\",\"compression_mean\":0.02,\"compression_max\":0.05}");
+    text = report_text();
+    assert_has(text, "<b class=\"mark\">caution</b><div><b>Density.</b>");
+    assert_has(text, "by 2 % on average: above 1 % pressures are doubtful. A single");
+    assert_null(strstr(text, "hits a wall"));
+    sb_free(text);
+}
+
+/* The table of probes has the unit of the plot above it, which is that of the greatest pressure of all. */
+static void one_unit_of_pressure(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *second, *head, *cell, *other;
+    } cases[] = {{"1234", "Greatest pressure, kPa</th>", "<td>1.23</td>", "<td>0.2</td>"},
+                 {"-1234", "Greatest pressure, kPa</th>", "<td>-1.23</td>", "<td>0.2</td>"},
+                 {"123", "Greatest pressure, Pa</th>", "<td>123</td>", "<td>200</td>"},
+                 {"2e7", "Greatest pressure, MPa</th>", "<td>20</td>", "<td>0.0002</td>"}};
+    make_run();
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        char rows[200];
+        snprintf(rows, sizeof rows, "time_s,probe,u_m_s,v_m_s,w_m_s,p_Pa\n0.1,a,0,0,0,200\n0.1,b,0,0,0,%s\n",
+                 cases[c].second);
+        write_text("run/probes.csv", rows);
+        char *text = report_text();
+        assert_has(text, cases[c].head);
+        assert_has(text, cases[c].cell);
+        assert_has(text, cases[c].other);
+        sb_free(text);
+    }
 }
 
 /* Both forces are flagged: the page begins with what can be read, and the spacing that 2.5 layers of 0.1 m need. */
@@ -266,6 +313,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(page_of_a_run),
+        cmocka_unit_test(density_of_the_worst_particle),
+        cmocka_unit_test(one_unit_of_pressure),
         cmocka_unit_test(what_a_coarse_run_can_tell),
         cmocka_unit_test(film_in_the_page),
         cmocka_unit_test(hostile_names),
