@@ -81,12 +81,12 @@ static void runup_is_the_top_of_connected_water(void **state)
     const sb_runup_line line = {"beach", 0, 5, 40, 5};
     sb_measure_view view = fake_view(&world);
     sb_runup_record record;
-    assert_int_equal(sb_runup_read(&view, &line, &(sb_shore){0}, &record, NULL), SB_OK);
+    assert_int_equal(sb_runup_read(&view, &line, NULL, &record, NULL), SB_OK);
     assert_true(fabs(record.place.x - 19.75) < 1e-9);
     assert_true(fabs(record.place.z - (0.25 * 19.75 + 1.0)) < 1e-9);
     assert_true(fabs(record.front - 20) < 1e-9);
     const sb_runup_line away = {"away", 30, 5, 40, 5};
-    assert_int_equal(sb_runup_read(&view, &away, &(sb_shore){0}, &record, NULL), SB_OK);
+    assert_int_equal(sb_runup_read(&view, &away, NULL, &record, NULL), SB_OK);
     assert_true(isnan(record.place.z) && isnan(record.front));
     fake_world_free(&world);
 }
@@ -110,9 +110,9 @@ static void front_is_the_extent_of_connected_water(void **state)
         const sb_runup_line little = {"little", 0, 5, back ? -5 : 5, 5};
         sb_measure_view view = fake_view(&world);
         sb_runup_record record;
-        assert_int_equal(sb_runup_read(&view, &line, &(sb_shore){0}, &record, NULL), SB_OK);
+        assert_int_equal(sb_runup_read(&view, &line, NULL, &record, NULL), SB_OK);
         assert_true(fabs(record.front - (extent + 2)) <= 0.2 * spacing);
-        assert_int_equal(sb_runup_read(&view, &little, &(sb_shore){0}, &record, NULL), SB_OK);
+        assert_int_equal(sb_runup_read(&view, &little, NULL, &record, NULL), SB_OK);
         assert_true(fabs(record.front - 5) < 1e-9);
         fake_world_free(&world);
     }
@@ -131,7 +131,7 @@ static void front_follows_a_thin_film(void **state)
         const sb_runup_line line = {"floor", 0, 0, 40, 0};
         sb_measure_view view = fake_view(&world);
         sb_runup_record record;
-        assert_int_equal(sb_runup_read(&view, &line, &(sb_shore){0}, &record, NULL), SB_OK);
+        assert_int_equal(sb_runup_read(&view, &line, NULL, &record, NULL), SB_OK);
         double front = (torn ? last : last + 5 * gap) + spacing / 2;
         assert_true(fabs(record.front - front) < 1e-9);
         fake_world_free(&world);
