@@ -326,6 +326,24 @@ static void moving_and_steep_bodies_are_no_bare_ground(void **state)
     }
 }
 
+/* In a cell wider than h half a layer is judged in that cell and those around it. */
+static void films_in_wide_cells(void **state)
+{
+    (void)state;
+    static const double apart[] = {1.25, 0.6};
+    for (int k = 0; k < 2; k++) {
+        fake_world world;
+        fake_world_make(&world, 3, 0.5, sb_vec(0, 0, 0), sb_vec(20, 8, 10));
+        for (double x = 0.25; x < 20; x += apart[k])
+            for (double y = 0.25; y < 8; y += apart[k]) fake_add(&world.sim, sb_vec(x, y, 0.25), sb_vec(0, 0, 0), 0);
+        sb_map_field *map = map_of(&world, 20, 2);
+        const sb_map_record *result = sb_map_result(map);
+        for (size_t i = 0; i < result->columns * result->rows; i++) assert_true((isnan(result->depth[i]) ? 0 : 1) == k);
+        sb_map_destroy(map);
+        fake_world_free(&world);
+    }
+}
+
 /* A map that is loaded has the ground of the start, not that which is dry when the run continues, and all values. */
 static void a_loaded_map_has_the_ground_of_the_start(void **state)
 {
@@ -436,6 +454,7 @@ int main(void)
         cmocka_unit_test(map_contains_arrival_times),
         cmocka_unit_test(maps_are_of_standing_water),
         cmocka_unit_test(moving_and_steep_bodies_are_no_bare_ground),
+        cmocka_unit_test(films_in_wide_cells),
         cmocka_unit_test(a_loaded_map_has_the_ground_of_the_start),
         cmocka_unit_test(depth_of_still_water_at_faces),
         cmocka_unit_test(flow_depth_is_that_of_the_approaching_water),
