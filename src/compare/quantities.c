@@ -137,22 +137,23 @@ static bool have_all(const sb_comparison *c, const char *name)
     return all;
 }
 
-static sb_status take_map(const sb_comparison *c, sb_items *all, size_t run, const sb_grid *depth, sb_error *error)
+/* bare: only what ground.asc has is ground. */
+static sb_status take_map(const sb_comparison *c, sb_items *all, size_t run, const sb_grid *depth, bool bare,
+                          sb_error *error)
 {
     double values[SB_QUANTITIES_MAX] = {NAN, NAN, NAN, NAN, NAN, NAN};
     sb_grid wet = {0}, ground = {0};
     /* A depth-averaged run has arrival times at sea, too, but times of inundation only on land. */
     if (!sb_map_of(&c->runs[run].run, "inundation_time", &wet) && !sb_map_of(&c->runs[run].run, "arrival_time", &wet))
         return SB_OK;
-    /* With runs of earlier versions, what stands on the ground counts in all of them. */
-    if (have_all(c, "ground")) sb_map_of(&c->runs[run].run, "ground", &ground);
+    if (bare) sb_map_of(&c->runs[run].run, "ground", &ground);
     sb_flooded(&wet, depth, &ground, &values[0], &values[1]);
     sb_grid_free(&wet);
     sb_grid_free(&ground);
     return put_values(c, all, SB_ITEM_MAP, "all", run, values, error);
 }
 
-static sb_status take_run(const sb_comparison *c, sb_items *all, size_t run, sb_error *error)
+static sb_status take_run(const sb_comparison *c, sb_items *all, size_t run, bool bare, sb_error *error)
 {
     sb_status status = SB_OK;
     sb_grid depth = {0};
@@ -165,7 +166,7 @@ static sb_status take_run(const sb_comparison *c, sb_items *all, size_t run, sb_
             status = put_values(c, all, (sb_item_kind)kind, table->series[i].name, run, values, error);
         }
     }
-    if (status == SB_OK) status = take_map(c, all, run, &depth, error);
+    if (status == SB_OK) status = take_map(c, all, run, &depth, bare, error);
     sb_grid_free(&depth);
     return status;
 }
@@ -213,7 +214,10 @@ sb_status sb_items_make(const sb_comparison *comparison, sb_items *items, sb_err
 {
     sb_items made = {0};
     sb_status status = SB_OK;
-    for (size_t r = 0; r < comparison->count && status == SB_OK; r++) status = take_run(comparison, &made, r, error);
+    /* With runs of earlier versions, what stands on the ground counts in all of them. */
+    const bool bare = have_all(comparison, "ground");
+    for (size_t r = 0; r < comparison->count && status == SB_OK; r++)
+        status = take_run(comparison, &made, r, bare, error);
     if (status != SB_OK) {
         sb_items_free(&made);
         return status;

@@ -28,6 +28,7 @@ struct sb_map_field {
     int64_t *near;  /* scratch: of the windows around the cells; after find_flow above 0 where there is a flow */
     float *bare;    /* m, result.ground; NULL: not recorded */
     double support; /* m, h */
+    double *widths; /* window_width of each column */
     double spacing, threshold, pause, next;
     double low[2], high[2]; /* m, of the domain along x and y */
     double length[2];       /* m, period of the domain; 0: not periodic */
@@ -51,6 +52,7 @@ void sb_map_destroy(sb_map_field *map)
     sb_free(map->sums);
     sb_standing_free(&map->standing);
     sb_free(map->near);
+    sb_free(map->widths);
     sb_free(map->bare);
     sb_free(map);
 }
@@ -243,15 +245,15 @@ static void add_windows(sb_map_field *map)
     for (size_t i = 0; i < columns && !map->flat; i++) add_around(map->near + i, columns, rows, reach, line);
 }
 
-/* The width (spacings) along an axis of the window around cell i of `count` that lies in the domain and the map, at
-   most that of the support radius. */
+/* The width (spacings) along an axis of the window around cell i of `count` that lies in the domain and the map. Of
+   cells that are not wider than the support radius, at most twice that radius. */
 static double window_width(const sb_map_field *map, int axis, double start, size_t i, size_t count)
 {
     const size_t reach = reach_of(map), first = i > reach ? i - reach : 0;
     const size_t end = i + reach + 1 < count ? i + reach + 1 : count;
     const double from = most(start + (double)first * map->result.cell, map->low[axis]);
     const double to = least(start + (double)end * map->result.cell, map->high[axis]);
-    return most(least(to - from, 2 * map->support), 0) / map->spacing;
+    return most(least(to - from, map->result.cell > map->support ? HUGE_VAL : 2 * map->support), 0) / map->spacing;
 }
 
 /* Finds the cells with a flow: there is half a layer of standing water in a window within a support radius, as for the
@@ -260,15 +262,16 @@ static void find_flow(sb_map_field *map)
 {
     const sb_map_record *grid = &map->result;
     const double s = map->spacing, particle = map->flat ? s * s : s * s * s;
+#pragma omp parallel for schedule(static)
     for (size_t i = 0; i < grid->columns * grid->rows; i++)
         map->near[i] = (int64_t)floor((double)map->sums[i].volume / particle * UNITS + 0.5);
     add_windows(map);
+#pragma omp parallel for schedule(static)
     for (size_t row = 0; row < grid->rows; row++) {
         const double across = map->flat ? 1 : window_width(map, 1, grid->y_min, row, grid->rows);
         for (size_t column = 0; column < grid->columns; column++) {
             int64_t *near = &map->near[row * grid->columns + column];
-            const double area = across * window_width(map, 0, grid->x_min, column, grid->columns);
-            *near = *near > 0 && (double)*near >= 0.5 * area * UNITS;
+            *near = *near > 0 && (double)*near >= 0.5 * (across * map->widths[column]) * UNITS;
         }
     }
     add_windows(map);
@@ -345,7 +348,8 @@ static sb_status allocate(sb_map_field *map, sb_error *error)
     map->sums = sb_alloc(cells, sizeof *map->sums);
     const size_t longer = map->result.columns > map->result.rows ? map->result.columns : map->result.rows;
     map->near = sb_alloc(cells + longer, sizeof *map->near);
-    return map->sums && map->near ? SB_OK : sb_fail_memory(error, "measure.map");
+    map->widths = sb_alloc(map->result.columns, sizeof *map->widths);
+    return map->sums && map->near && map->widths ? SB_OK : sb_fail_memory(error, "measure.map");
 }
 
 sb_status sb_map_create(const sb_measure_view *view, const sb_model *model, sb_map_field **map, sb_error *error)
@@ -389,6 +393,8 @@ sb_status sb_map_create(const sb_measure_view *view, const sb_model *model, sb_m
     double height = view->max.z - view->min.z;
     double fastest = sqrt(2 * scene->fluid.gravity * (height > 0 ? height : made->spacing));
     made->pause = fmax(0.5 * request->cell / fastest, 0);
+    for (size_t column = 0; column < made->result.columns; column++)
+        made->widths[column] = window_width(made, 0, made->result.x_min, column, made->result.columns);
     double time = sb_sim_report(view->sim)->time;
     gather(made, view->sim);
     for (size_t i = 0; i < made->result.columns * made->result.rows; i++) made->start[i] = depth_of(made, i);
@@ -418,7 +424,7 @@ const sb_map_record *sb_map_result(const sb_map_field *map)
 
 size_t sb_map_bytes(const sb_map_field *map)
 {
-    return sizeof *map + sb_standing_bytes(&map->standing) +
+    return sizeof *map + sb_standing_bytes(&map->standing) + map->result.columns * sizeof *map->widths +
            map->result.columns * map->result.rows *
                ((map->bare ? 6 : 5) * sizeof(float) + sizeof(cell_sum) + sizeof *map->near);
 }

@@ -52,8 +52,8 @@ typedef struct sb_patch sb_patch;
 sb_status sb_probe_read(const sb_measure_view *view, const sb_probe *probe, const sb_patch *patch, sb_vec3 *velocity,
                         double *pressure, sb_error *error);
 
-/* The boundary particles near a run-up line of bodies that do not move, in the order along the line. Zero-initialised:
-   they are not known, and all water counts as if it wetted something. */
+/* The places on the surfaces of bodies that do not move at which there are boundary particles, near a run-up line and
+   in the order along it. Zero-initialised: there are none, and water wets nothing. */
 typedef struct sb_shore_point {
     double along; /* m, from the first end */
     sb_vec3 at;
@@ -68,7 +68,7 @@ void sb_shore_free(sb_shore *shore);
 /* The place near which all ranks must have the boundary particles. */
 sb_model_place sb_shore_place(const sb_scene *scene, const sb_runup_line *line);
 
-/* Sets the `place`, `front` and `apart` of the record. */
+/* Sets the `place`, `front` and `apart` of the record. shore: NULL: it is not known, and all connected water counts. */
 sb_status sb_runup_read(const sb_measure_view *view, const sb_runup_line *line, const sb_shore *shore,
                         sb_runup_record *record, sb_error *error);
 

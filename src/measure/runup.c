@@ -7,9 +7,9 @@
    therefore ends the run-up and counts as unconnected water. Otherwise the front would be erratic: a film of a quarter
    of a layer breaks and closes at random, and the front would jump by hundreds of spacings from row to row.
 
-   The highest point is that of the water which wets something: of the particles within h of the ground or a wall, by
-   its boundary particles. Water that is thrown up at a wall beyond its crest, and the crest of a wave in deeper water,
-   are connected, but nothing there becomes wet.
+   The highest point is that of the water which wets something: of the particles at most 1.5 spacings from the ground or
+   a wall, by the places of its boundary particles on the surface. Water that is thrown up at a wall beyond its crest,
+   the crest of a wave in deeper water, and the upper layers of a flow over land are connected, but wet nothing.
 
    The connected water begins within h of the line's first end or before it, on the line's extension to the domain's
    side. On a line that starts on land the run-up is that of the sea before the line, and there is none until that water
@@ -186,10 +186,10 @@ static int compare_points(const void *left, const void *right)
     return (a->along > b->along) - (a->along < b->along);
 }
 
-/* How far from the line particles count, and boundary particles beside these, m. */
+/* How far from the line particles count, and the surface beside these, m. */
 static double shore_reach(const sb_scene *scene)
 {
-    return (1 + scene->numerics.support) * scene->resolution;
+    return (1 + SB_LINK) * scene->resolution;
 }
 
 sb_model_place sb_shore_place(const sb_scene *scene, const sb_runup_line *line)
@@ -198,7 +198,7 @@ sb_model_place sb_shore_place(const sb_scene *scene, const sb_runup_line *line)
     const double more = scene->numerics.support * scene->resolution; /* before the first end, particles count, too */
     return (sb_model_place){.at = sb_vec(c.ax - more * c.ux, c.ay - more * c.uy, 0),
                             .to = sb_vec(c.ax + c.length * c.ux, c.ay + c.length * c.uy, 0),
-                            .range = shore_reach(scene),
+                            .range = shore_reach(scene) + scene->numerics.wall_offset * scene->resolution,
                             .column = true};
 }
 
@@ -207,11 +207,12 @@ sb_status sb_shore_find(const sb_scene *scene, const sb_model *model, const sb_r
 {
     const course c = line_of(scene, line);
     const double reach = shore_reach(scene), first = -scene->numerics.support * scene->resolution;
-    for (size_t b = 0; b < model->body_count && model->wall_position; b++) {
+    const double offset = scene->numerics.wall_offset * scene->resolution;
+    for (size_t b = 0; b < model->body_count && model->wall_normal; b++) {
         const sb_model_body *body = &model->bodies[b];
         if (body->wavemaker >= 0) continue;
         for (size_t i = body->begin; i < body->begin + body->count; i++) {
-            const sb_vec3 at = model->wall_position[i];
+            const sb_vec3 at = sb_madd(model->wall_position[i], offset, model->wall_normal[i]);
             if (!(distance_to(&c, at, first) <= reach)) continue;
             if (sb_grow((void **)&shore->points, &shore->capacity, shore->count + 1, sizeof *shore->points) != 0)
                 return sb_fail_memory(error, "the ground of run-up lines");
@@ -228,10 +229,10 @@ void sb_shore_free(sb_shore *shore)
     *shore = (sb_shore){0};
 }
 
-/* Whether a particle wets the ground or a wall: it is within h of it. */
-static bool wets(const sb_shore *shore, const course *c, sb_vec3 place, double support)
+/* Whether a particle wets the ground or a wall: it is within `reach` of it. */
+static bool wets(const sb_shore *shore, const course *c, sb_vec3 place, double reach)
 {
-    const double from = along(c, place) - support;
+    const double from = along(c, place) - reach;
     size_t low = 0, high = shore->count;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
@@ -240,11 +241,11 @@ static bool wets(const sb_shore *shore, const course *c, sb_vec3 place, double s
         else
             high = middle;
     }
-    for (size_t i = low; i < shore->count && shore->points[i].along <= from + 2 * support; i++) {
+    for (size_t i = low; i < shore->count && shore->points[i].along <= from + 2 * reach; i++) {
         const sb_vec3 d = sb_sub(place, shore->points[i].at);
-        if (sb_dot(d, d) < support * support) return true;
+        if (sb_dot(d, d) < reach * reach) return true;
     }
-    return shore->count == 0;
+    return false;
 }
 
 /* The highest connected particle within one spacing of the line, which begins at `first`, that wets something; NaN:
@@ -253,12 +254,11 @@ static sb_vec3 highest(const sb_measure_view *view, const course *c, const sb_sh
 {
     const sb_cloud *cloud = view->cloud;
     const double none = (double)NAN, spacing = view->scene->resolution;
-    const double support = view->scene->numerics.support * spacing;
     sb_vec3 best = sb_vec(none, none, none);
     for (size_t i = 0; i < cloud->count; i++) {
         const sb_vec3 place = cloud->samples[i].position;
         if (!cloud->marks[i] || !(distance_to(c, place, first) <= spacing) || place.z <= best.z) continue;
-        if (wets(shore, c, place, support)) best = place;
+        if (!shore || wets(shore, c, place, SB_LINK * spacing)) best = place;
     }
     return best;
 }

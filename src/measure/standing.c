@@ -9,8 +9,9 @@
 /* Words of a cell; a domain of more than 512 spacings has higher levels. */
 enum { WORDS_MAX = 16 };
 
-/* A surface is a floor if the z component of its normal is at least this; as for gauges (floors.c). */
-static const double LEVEL_ENOUGH = 0.5;
+/* A face of a body is a wall, not a floor, if the z component of its normal is less than this: steeper than 89 degrees.
+   Water above it then is at most a few spacings from the next floor. */
+static const double UPRIGHT = 0.0175;
 
 /* A body stands on the ground if it is higher by this many half spacings, more than rounding of its file. */
 static const double ROUNDED = 0.02;
@@ -80,13 +81,15 @@ static bool is_apart(const sb_vec3 v[3], const area *a, double nx, double ny, do
     return high < from + margin || low > to - margin;
 }
 
-static bool overlaps(const sb_vec3 v[3], const area *a, double margin)
+/* What only touches an area is not in it, except across its line in 2D, on which an edge of the mesh may lie. */
+static bool overlaps(const sb_vec3 v[3], const area *a, bool flat, double margin)
 {
-    if (is_apart(v, a, 1, 0, margin) || is_apart(v, a, 0, 1, margin)) return false;
+    const double across = flat ? -margin : margin;
+    if (is_apart(v, a, 1, 0, margin) || is_apart(v, a, 0, 1, across)) return false;
     for (int k = 0; k < 3; k++) {
         const sb_vec3 from = v[k], to = v[(k + 1) % 3];
         const double ex = to.x - from.x, ey = to.y - from.y, length = hypot(ex, ey);
-        if (length > 0 && is_apart(v, a, ey / length, -ex / length, margin)) return false;
+        if (length > 0 && is_apart(v, a, ey / length, -ex / length, fabs(ex) > 0 ? across : margin)) return false;
     }
     return true;
 }
@@ -119,19 +122,45 @@ static double height_at(const slab *s, double x, double y)
     return fmin(fmax(s->z + s->gx * (x - s->x) + s->gy * (y - s->y), s->low), s->high);
 }
 
-/* The highest and the lowest z of the plane within the area, between those of the triangle. */
-static void range_in(const slab *s, const area *a, double *low, double *high)
+/* Limits the part [*start, *end] of an edge to what is within [min, max] along one axis. */
+static void clip(double from, double to, double min, double max, double *start, double *end)
 {
-    *low = s->low;
-    *high = s->high;
-    if (s->upright) return;
+    if (from == to) {
+        if (from < min || from > max) *end = -1;
+        return;
+    }
+    const double a = (min - from) / (to - from), b = (max - from) / (to - from);
+    *start = fmax(*start, fmin(a, b));
+    *end = fmin(*end, fmax(a, b));
+}
+
+/* The range of an upright triangle within the area, from its edges. */
+static void range_of_edges(const sb_vec3 v[3], const area *a, double *low, double *high)
+{
+    const double more = 1e-9 * (a->high[0] - a->low[0]);
+    for (int k = 0; k < 3; k++) {
+        const sb_vec3 from = v[k], to = v[(k + 1) % 3];
+        double start = 0, end = 1;
+        clip(from.x, to.x, a->low[0] - more, a->high[0] + more, &start, &end);
+        clip(from.y, to.y, a->low[1] - more, a->high[1] + more, &start, &end);
+        if (!(start <= end)) continue;
+        const double first = from.z + start * (to.z - from.z), last = from.z + end * (to.z - from.z);
+        *low = fmin(*low, fmin(first, last));
+        *high = fmax(*high, fmax(first, last));
+    }
+}
+
+/* The highest and the lowest z of the plane within the area, between those of the triangle. */
+static void range_in(const sb_vec3 v[3], const slab *s, const area *a, double *low, double *high)
+{
     *low = HUGE_VAL;
     *high = -HUGE_VAL;
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 4 && !s->upright; k++) {
         const double z = height_at(s, k & 1 ? a->high[0] : a->low[0], k & 2 ? a->high[1] : a->low[1]);
         *low = fmin(*low, z);
         *high = fmax(*high, z);
     }
+    if (s->upright) range_of_edges(v, a, low, high);
 }
 
 static bool contains(const sb_vec3 v[3], double x, double y)
@@ -167,7 +196,8 @@ static void add_ground(const builder *b, size_t cell, const sb_vec3 v[3], const 
 {
     sb_standing *s = b->standing;
     double low, high;
-    range_in(plane, a, &low, &high);
+    range_in(v, plane, a, &low, &high);
+    if (!(low <= high)) return;
     fill(s, cell, s->low, high + s->half);
     b->top[cell] = fmaxf(b->top[cell], (float)high);
     const double x = 0.5 * (a->low[0] + a->high[0]), y = 0.5 * (a->low[1] + a->high[1]);
@@ -176,12 +206,15 @@ static void add_ground(const builder *b, size_t cell, const sb_vec3 v[3], const 
     if (!(s->ground[cell] >= z)) s->ground[cell] = z;
 }
 
-static void add_floor(const builder *b, size_t cell, const slab *plane, const area *a)
+/* moves: the levels of the triangle are not known during the run, but what is below it at the start is no bare ground.
+ */
+static void add_face(const builder *b, size_t cell, const sb_vec3 v[3], const slab *plane, const area *a, bool moves)
 {
     sb_standing *s = b->standing;
     double low, high;
-    range_in(plane, a, &low, &high);
-    fill(s, cell, low, high + s->half);
+    range_in(v, plane, a, &low, &high);
+    if (!(low <= high)) return;
+    if (!moves && plane->up >= UPRIGHT) fill(s, cell, low, high + s->half);
     if (s->ground && high > (double)b->top[cell] + ROUNDED * s->half) s->ground[cell] = NAN;
 }
 
@@ -197,24 +230,22 @@ static void cells_of(const sb_map_record *grid, int axis, const sb_vec3 v[3], si
     *end = (size_t)fmin(fmax(high, 0), most);
 }
 
-static void add_triangle(const builder *b, const sb_vec3 v[3], bool ground)
+static void add_triangle(const builder *b, const sb_vec3 v[3], bool ground, bool moves)
 {
-    /* In 2D an edge of the mesh may lie on the line; in 3D what only touches a cell is not in it. */
-    const double margin = (b->flat ? -1e-9 : 1e-9) * b->grid->cell;
+    const double margin = 1e-9 * b->grid->cell;
     const slab plane = slab_of(v);
     size_t x0, x1, y0 = 0, y1 = 1;
-    if (!ground && plane.up < LEVEL_ENOUGH) return;
     cells_of(b->grid, 0, v, &x0, &x1);
     if (!b->flat) cells_of(b->grid, 1, v, &y0, &y1);
     for (size_t row = y0; row < y1; row++)
         for (size_t column = x0; column < x1; column++) {
             const area a = area_of(b->grid, b->flat, column, row);
             const size_t cell = row * b->grid->columns + column;
-            if (!overlaps(v, &a, margin)) continue;
+            if (!overlaps(v, &a, b->flat, margin)) continue;
             if (ground)
                 add_ground(b, cell, v, &plane, &a);
             else
-                add_floor(b, cell, &plane, &a);
+                add_face(b, cell, v, &plane, &a, moves);
         }
 }
 
@@ -223,11 +254,12 @@ static void add_bodies(const builder *b, bool ground)
 {
     for (size_t i = 0; i < b->model->body_count; i++) {
         const sb_model_body *body = &b->model->bodies[i];
-        if (body->wavemaker >= 0 || (body->role == SB_ROLE_TERRAIN) != ground) continue;
+        const bool moves = body->wavemaker >= 0;
+        if ((body->role == SB_ROLE_TERRAIN && !moves) != ground) continue;
         for (size_t t = 0; t < body->mesh.triangle_count; t++) {
             const uint32_t *of = body->mesh.triangles[t];
             const sb_vec3 v[3] = {body->mesh.vertices[of[0]], body->mesh.vertices[of[1]], body->mesh.vertices[of[2]]};
-            add_triangle(b, v, ground);
+            add_triangle(b, v, ground, moves);
         }
     }
 }

@@ -14,11 +14,12 @@ typedef struct sb_standing {
     double half;         /* m, half a spacing */
     uint64_t *solid;     /* levels of the ground and of floors */
     uint64_t *water;     /* levels in which there is water; after sb_standing_connect of standing water only */
-    float *ground;       /* m, z of the ground in the middle of a cell, NaN where another body stands on it; NULL: no
-                            body has the role of terrain */
+    float *ground; /* m, z of the ground in the middle of a cell, NaN where another body stands on it at the start;
+                      NULL: no body has the role of terrain */
 } sb_standing;
 
-/* Finds the ground and the floors of each cell from the bodies that do not move. SB_FAILED without memory. */
+/* Finds the ground and the floors of each cell from the bodies that do not move. Where a body that moves is higher
+   than the ground at the start, the ground is NaN. SB_FAILED without memory. */
 sb_status sb_standing_create(const sb_scene *scene, const sb_model *model, const sb_map_record *grid,
                              sb_standing *standing, sb_error *error);
 void sb_standing_free(sb_standing *standing);

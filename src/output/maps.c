@@ -5,17 +5,17 @@
 
 const sb_map_row sb_map_rows[] = {
     {"max_depth", "grid_max_depth", offsetof(sb_map_record, depth), "greatest depth (m)",
-     "0 '#ffffff', 0.02 '#deebf7', 0.4 '#6baed6', 1 '#08306b'", true},
+     "0 '#ffffff', 0.02 '#deebf7', 0.4 '#6baed6', 1 '#08306b'", true, true},
     {"max_speed", "grid_max_speed", offsetof(sb_map_record, speed), "greatest speed (m/s)",
-     "0 '#ffffe5', 0.5 '#fe9929', 1 '#662506'", true},
+     "0 '#ffffe5', 0.5 '#fe9929', 1 '#662506'", true, true},
     {"max_momentum_flux", "grid_max_momentum_flux", offsetof(sb_map_record, flux), "greatest momentum flux (m³/s²)",
-     "0 '#fff7f3', 0.5 '#f768a1', 1 '#49006a'", true},
+     "0 '#fff7f3', 0.5 '#f768a1', 1 '#49006a'", true, true},
     {"arrival_time", "grid_arrival_time", offsetof(sb_map_record, arrival), "arrival time (s)",
-     "0 '#440154', 0.5 '#21918c', 1 '#fde725'", false},
+     "0 '#440154', 0.5 '#21918c', 1 '#fde725'", false, true},
     {"inundation_time", "grid_inundation_time", offsetof(sb_map_record, duration), "duration of inundation (s)",
-     "0 '#ffffff', 0.02 '#e5f5e0', 0.5 '#41ab5d', 1 '#00441b'", true},
+     "0 '#ffffff', 0.02 '#e5f5e0', 0.5 '#41ab5d', 1 '#00441b'", true, true},
     {"ground", "grid_ground", offsetof(sb_map_record, ground), "ground (z, m)",
-     "0 '#3b5b7a', 0.35 '#d8c9a3', 0.6 '#8fae7a', 1 '#7a5a3a'", false},
+     "0 '#3b5b7a', 0.35 '#d8c9a3', 0.6 '#8fae7a', 1 '#7a5a3a'", false, false},
     {.name = NULL},
 };
 

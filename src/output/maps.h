@@ -11,6 +11,7 @@ typedef struct sb_map_row {
     const char *label;            /* of the colours in the plot, with the unit */
     const char *palette;          /* gnuplot: fraction of the range and colour, ... */
     bool from_zero;               /* the range of colours begins at 0 */
+    bool drawn;                   /* in plots and reports */
 } sb_map_row;
 
 /* All maps; the last row has no name. */

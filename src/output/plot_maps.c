@@ -48,8 +48,10 @@ static int draw_map(const char *program, const char *directory, const sb_map_row
 int sb_plot_maps(const char *program, const char *directory, const sb_scene *scene, sb_runlog *log)
 {
     int drawn = 0;
-    for (const sb_map_row *row = sb_map_rows; row->name; row++)
+    for (const sb_map_row *row = sb_map_rows; row->name; row++) {
+        if (!row->drawn) continue;
         drawn += draw_map(program, directory, row, row->name, scene, log) +
                  draw_map(program, directory, row, row->grid_name, scene, log);
+    }
     return drawn;
 }

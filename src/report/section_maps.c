@@ -35,6 +35,7 @@ static bool put_row(FILE *out, const sb_report_page *page, const sb_map_row *row
     char path[SB_PATH_MAX], name[64];
     sb_grid grid = {0};
     sb_error error = {0};
+    if (!row->drawn) return false;
     snprintf(name, sizeof name, "maps/%s.asc", file);
     errno = 0;
     sb_status status = sb_path_join(path, page->run->directory, name, &error);

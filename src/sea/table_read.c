@@ -120,6 +120,12 @@ static sb_status read_csv(sb_rows *rows, char *line, sb_given_unit unit, sb_line
         if (*line == '#') continue;
         line[strcspn(line, "#")] = '\0';
         if (header) status = check_unit(rows, line, unit, error);
+        /* "0;0,12;0" has three columns, but four cells, as t, eta, u, v would have. */
+        if (status == SB_OK && !header && strchr(line, ';') && strchr(line, ','))
+            return sb_fail(
+                error, SB_BAD_INPUT,
+                "%.500s:%zu: has commas and semicolons, expected one kind of separator; decimals have points",
+                rows->path, rows->line);
         if (status == SB_OK) status = sb_rows_cut(rows, line, error);
         if (status == SB_OK && !known)
             status = header ? read_header(rows, &found, error) : guess_layout(rows, &found, error);

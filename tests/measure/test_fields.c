@@ -81,12 +81,12 @@ static void runup_is_the_top_of_connected_water(void **state)
     const sb_runup_line line = {"beach", 0, 5, 40, 5};
     sb_measure_view view = fake_view(&world);
     sb_runup_record record;
-    assert_int_equal(sb_runup_read(&view, &line, &(sb_shore){0}, &record, NULL), SB_OK);
+    assert_int_equal(sb_runup_read(&view, &line, NULL, &record, NULL), SB_OK);
     assert_true(fabs(record.place.x - 19.75) < 1e-9);
     assert_true(fabs(record.place.z - (0.25 * 19.75 + 1.0)) < 1e-9);
     assert_true(fabs(record.front - 20) < 1e-9);
     const sb_runup_line away = {"away", 30, 5, 40, 5};
-    assert_int_equal(sb_runup_read(&view, &away, &(sb_shore){0}, &record, NULL), SB_OK);
+    assert_int_equal(sb_runup_read(&view, &away, NULL, &record, NULL), SB_OK);
     assert_true(isnan(record.place.z) && isnan(record.front));
     fake_world_free(&world);
 }
@@ -110,9 +110,9 @@ static void front_is_the_extent_of_connected_water(void **state)
         const sb_runup_line little = {"little", 0, 5, back ? -5 : 5, 5};
         sb_measure_view view = fake_view(&world);
         sb_runup_record record;
-        assert_int_equal(sb_runup_read(&view, &line, &(sb_shore){0}, &record, NULL), SB_OK);
+        assert_int_equal(sb_runup_read(&view, &line, NULL, &record, NULL), SB_OK);
         assert_true(fabs(record.front - (extent + 2)) <= 0.2 * spacing);
-        assert_int_equal(sb_runup_read(&view, &little, &(sb_shore){0}, &record, NULL), SB_OK);
+        assert_int_equal(sb_runup_read(&view, &little, NULL, &record, NULL), SB_OK);
         assert_true(fabs(record.front - 5) < 1e-9);
         fake_world_free(&world);
     }
@@ -131,7 +131,7 @@ static void front_follows_a_thin_film(void **state)
         const sb_runup_line line = {"floor", 0, 0, 40, 0};
         sb_measure_view view = fake_view(&world);
         sb_runup_record record;
-        assert_int_equal(sb_runup_read(&view, &line, &(sb_shore){0}, &record, NULL), SB_OK);
+        assert_int_equal(sb_runup_read(&view, &line, NULL, &record, NULL), SB_OK);
         double front = (torn ? last : last + 5 * gap) + spacing / 2;
         assert_true(fabs(record.front - front) < 1e-9);
         fake_world_free(&world);
@@ -199,7 +199,7 @@ static void map_contains_arrival_times(void **state)
 static void add_rectangle(fake_world *world, sb_role role, sb_vec3 low, sb_vec3 high)
 {
     sb_model *model = &world->model;
-    static sb_model_body bodies[4];
+    static sb_model_body bodies[9];
     sb_model_body *body = &bodies[model->body_count++];
     *body = (sb_model_body){.wavemaker = -1, .source = SIZE_MAX, .role = role};
     assert_int_equal(sb_mesh_alloc(&body->mesh, 4, 2, NULL), SB_OK);
@@ -271,6 +271,75 @@ static void maps_are_of_standing_water(void **state)
             fail_msg("cells of %g m in %d dimensions: %g of %g", cell, dimensions, volume, whole);
         sb_map_destroy(map);
         free_bodies(&world);
+        fake_world_free(&world);
+    }
+}
+
+static sb_map_field *map_of(fake_world *world, double columns, double cell)
+{
+    const double rows = world->scene.dimensions == 2 ? 1 : 8;
+    world->scene.measure.map = (sb_map){true, 0, 0, columns, rows, cell, 0.4};
+    sb_measure_view view = fake_view(world);
+    sb_map_field *map;
+    assert_int_equal(sb_map_create(&view, &world->model, &map, NULL), SB_OK);
+    return map;
+}
+
+/* Dry ground in cells of 0.5 m, with a paddle at x = 4 to 6, a dam with faces of 65 degrees at x = 28 to 30.8, and a
+   slab at x = 34 to 36. In between, a sea stands over a dam with faces of 70 degrees. */
+static void moving_and_steep_bodies_are_no_bare_ground(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        const double slope = tan(M_PI * 70 / 180), run = 6 / slope, steep = 1.4 * tan(M_PI * 65 / 180);
+        fake_world world;
+        fake_world_make(&world, dimensions, 0.5, sb_vec(0, 0, -1), sb_vec(40, 8, 30));
+        add_rectangle(&world, SB_ROLE_TERRAIN, sb_vec(0, -1, 0), sb_vec(40, 9, 0));
+        add_rectangle(&world, SB_ROLE_SOLID, sb_vec(4, -1, 3), sb_vec(6, 9, 3));
+        world.model.bodies[1].wavemaker = 0;
+        add_rectangle(&world, SB_ROLE_SOLID, sb_vec(16 - run, -1, 0), sb_vec(16, 9, 6));
+        add_rectangle(&world, SB_ROLE_SOLID, sb_vec(16, -1, 6), sb_vec(18, 9, 6));
+        add_rectangle(&world, SB_ROLE_SOLID, sb_vec(18, -1, 6), sb_vec(18 + run, 9, 0));
+        add_rectangle(&world, SB_ROLE_SOLID, sb_vec(28, -1, 0), sb_vec(29.4, 9, steep));
+        add_rectangle(&world, SB_ROLE_SOLID, sb_vec(29.4, -1, steep), sb_vec(30.8, 9, 0));
+        add_rectangle(&world, SB_ROLE_SOLID, sb_vec(34, -1, 2), sb_vec(36, 9, 2));
+        for (double x = 10.25; x < 24; x += 0.5)
+            for (double y = dimensions == 2 ? 0 : 0.25; y < (dimensions == 2 ? 0.1 : 8); y += 0.5)
+                for (double z = 0.25; z < 8; z += 0.5)
+                    if (z > slope * (x - 16 + run) || z > slope * (18 + run - x) || z > 6)
+                        fake_add(&world.sim, sb_vec(x, y, z), sb_vec(0, 0, 0), 0);
+        sb_map_field *map = map_of(&world, 40, 0.5);
+        const sb_map_record *result = sb_map_result(map);
+        double volume = 0;
+        for (size_t i = 0; i < result->columns * result->rows; i++) {
+            const double x = ((double)(i % result->columns) + 0.5) * 0.5;
+            const bool covered = (x > 4 && x < 6) || (x > 9.5 && x < 24.5) || (x > 28 && x < 31) || (x > 34 && x < 36);
+            if (covered && !isnan(result->ground[i])) fail_msg("%d dimensions: bare at x = %g", dimensions, x);
+            if (!covered && result->ground[i] != 0) fail_msg("%d dimensions: no ground at x = %g", dimensions, x);
+            if (!isnan(result->depth[i])) volume += (double)result->depth[i] * (dimensions == 2 ? 0.5 : 0.25);
+        }
+        const double particles = (double)world.sim.report.fluid_count * (dimensions == 2 ? 0.25 : 0.125);
+        if (fabs(volume - particles) > 1e-3 * particles) fail_msg("%g of %g", volume, particles);
+        sb_map_destroy(map);
+        free_bodies(&world);
+        fake_world_free(&world);
+    }
+}
+
+/* In a cell wider than h half a layer is judged in that cell and those around it. */
+static void films_in_wide_cells(void **state)
+{
+    (void)state;
+    static const double apart[] = {1.25, 0.6};
+    for (int k = 0; k < 2; k++) {
+        fake_world world;
+        fake_world_make(&world, 3, 0.5, sb_vec(0, 0, 0), sb_vec(20, 8, 10));
+        for (double x = 0.25; x < 20; x += apart[k])
+            for (double y = 0.25; y < 8; y += apart[k]) fake_add(&world.sim, sb_vec(x, y, 0.25), sb_vec(0, 0, 0), 0);
+        sb_map_field *map = map_of(&world, 20, 2);
+        const sb_map_record *result = sb_map_result(map);
+        for (size_t i = 0; i < result->columns * result->rows; i++) assert_true((isnan(result->depth[i]) ? 0 : 1) == k);
+        sb_map_destroy(map);
         fake_world_free(&world);
     }
 }
@@ -384,6 +453,8 @@ int main(void)
         cmocka_unit_test(map_conserves_volume),
         cmocka_unit_test(map_contains_arrival_times),
         cmocka_unit_test(maps_are_of_standing_water),
+        cmocka_unit_test(moving_and_steep_bodies_are_no_bare_ground),
+        cmocka_unit_test(films_in_wide_cells),
         cmocka_unit_test(a_loaded_map_has_the_ground_of_the_start),
         cmocka_unit_test(depth_of_still_water_at_faces),
         cmocka_unit_test(flow_depth_is_that_of_the_approaching_water),

@@ -30,7 +30,7 @@ static sb_runup_record read_line(fake_world *world, double from, double to)
     const sb_runup_line line = {"line", from, 5, to, 5};
     sb_measure_view view = fake_view(world);
     sb_runup_record record = {0};
-    assert_int_equal(sb_runup_read(&view, &line, &(sb_shore){0}, &record, NULL), SB_OK);
+    assert_int_equal(sb_runup_read(&view, &line, NULL, &record, NULL), SB_OK);
     return record;
 }
 
@@ -223,7 +223,7 @@ static void an_oblique_line_is_read_like_any_other(void **state)
     const sb_runup_line line = {"line", 1, 1, 59, 59};
     sb_measure_view view = fake_view(&world);
     sb_runup_record r;
-    assert_int_equal(sb_runup_read(&view, &line, &(sb_shore){0}, &r, NULL), SB_OK);
+    assert_int_equal(sb_runup_read(&view, &line, NULL, &r, NULL), SB_OK);
     /* The edges cross the line at 45 degrees: particles a spacing to one side of it are a spacing ahead. */
     assert_true(fabs(r.front - 39 * sqrt(2)) <= 2 * SPACING);
     assert_true(fabs(r.apart - 11 * sqrt(2)) <= 2 * SPACING);
@@ -232,8 +232,8 @@ static void an_oblique_line_is_read_like_any_other(void **state)
 }
 
 /* Water 2 m deep, with the crest of a wave at x = 10, before a wall with its face at x = 30 and its crest at z = 4. Of
-   a jet 10 m high at the face, which is connected, what is within a support radius of the wall has wetted it. A paddle
-   is no shore. */
+   a jet 10 m high at the face, which is connected, what is within 1.5 spacings of the wall has wetted it. A paddle is
+   no shore. */
 static void a_jet_beyond_a_wall_is_not_the_runup(void **state)
 {
     (void)state;
@@ -242,7 +242,7 @@ static void a_jet_beyond_a_wall_is_not_the_runup(void **state)
         const double jet = k < 2 ? 10 : 3.5;
         fake_world world;
         make_world(&world, dimensions);
-        sb_vec3 points[3000];
+        sb_vec3 points[3000], normals[3000] = {{0, 0, 0}};
         size_t count = 0;
         for (double y = dimensions == 2 ? 0 : 0.25; y < (dimensions == 2 ? 0.1 : 10); y += 0.5) {
             for (double x = 0.25; x < 30; x += 0.5) points[count++] = sb_vec(x, y, 0);
@@ -255,6 +255,7 @@ static void a_jet_beyond_a_wall_is_not_the_runup(void **state)
         world.model.body_count = 2;
         world.model.bodies = bodies;
         world.model.wall_position = points;
+        world.model.wall_normal = normals;
         fill(&world, 0, 30, 0, 2);
         fill(&world, 10, 12, 2, 9);
         fill(&world, 28, 30, 2, jet);
@@ -264,9 +265,48 @@ static void a_jet_beyond_a_wall_is_not_the_runup(void **state)
         sb_shore shore = {0};
         assert_int_equal(sb_shore_find(&world.scene, &world.model, &line, &shore, NULL), SB_OK);
         assert_int_equal(sb_runup_read(&view, &line, &shore, &r, NULL), SB_OK);
-        if (k < 2) assert_true(r.place.z > 4 && r.place.z <= 5.25);
+        if (k < 2) assert_true(r.place.z > 4 && r.place.z <= 4 + 2 * SPACING);
         if (k >= 2) assert_true(fabs(r.place.z - jet) < 1e-9);
         assert_true(r.place.x > 29 && fabs(r.front - 28) < 1e-9);
+        sb_shore_free(&shore);
+        fake_world_free(&world);
+    }
+}
+
+/* A flow of six layers over flat land, whose boundary particles lie one or two spacings below it. What is more than 1.5
+   spacings above the land does not wet it, whatever h is. Where there is no land at all, nothing wets it. */
+static void the_upper_layers_of_a_flow_do_not_wet_the_land(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 6; k++) {
+        const int dimensions = 2 + k % 2;
+        const double offset = k < 4 ? (1 + k / 2) : 1;
+        fake_world world;
+        make_world(&world, dimensions);
+        world.scene.numerics.support = 2.75;
+        world.scene.numerics.wall_offset = offset;
+        sb_vec3 points[3000], normals[3000];
+        size_t count = 0;
+        for (double y = dimensions == 2 ? 0 : 0.2; y < (dimensions == 2 ? 0.1 : 10); y += 0.4)
+            for (double x = 0.2; x < 30; x += 0.4) {
+                points[count] = sb_vec(x, y, -offset * SPACING);
+                normals[count++] = sb_vec(0, 0, 1);
+            }
+        sb_model_body body = {.begin = 0, .count = k < 4 ? count : 0, .wavemaker = -1};
+        world.model.body_count = 1;
+        world.model.bodies = &body;
+        world.model.wall_position = points;
+        world.model.wall_normal = normals;
+        fake_fill(&world, sb_vec(0, 0, 0), sb_vec(20, 10, 3), 0, 0, 0.2, 1);
+        const sb_runup_line line = {"line", 2, 5, 55, 5};
+        sb_measure_view view = fake_view(&world);
+        sb_runup_record r = {0};
+        sb_shore shore = {0};
+        assert_int_equal(sb_shore_find(&world.scene, &world.model, &line, &shore, NULL), SB_OK);
+        assert_int_equal(sb_runup_read(&view, &line, &shore, &r, NULL), SB_OK);
+        if (k < 4) assert_true(r.place.z > 0.5 && r.place.z <= 2 * SPACING);
+        if (k >= 4) assert_true(isnan(r.place.z));
+        assert_true(fabs(r.front - 18) < 0.2);
         sb_shore_free(&shore);
         fake_world_free(&world);
     }
@@ -286,6 +326,7 @@ int main(void)
         cmocka_unit_test(a_line_starts_in_water_within_the_support_radius),
         cmocka_unit_test(water_beside_a_line_connects_around_a_gap),
         cmocka_unit_test(a_jet_beyond_a_wall_is_not_the_runup),
+        cmocka_unit_test(the_upper_layers_of_a_flow_do_not_wet_the_land),
         cmocka_unit_test(an_oblique_line_is_read_like_any_other),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

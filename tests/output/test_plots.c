@@ -68,7 +68,7 @@ static void write_maps(bool beside)
     for (int j = 0; j < ROWS; j++)
         for (int i = 0; i < COLUMNS; i++)
             values[j * COLUMNS + i] = i > 100 + j / 10 ? NAN : (float)(38 - 0.3 * i + 0.05 * j);
-    const sb_map_record map = {COLUMNS, ROWS, 0, -575, 10, values, values, values, values, values, NULL};
+    const sb_map_record map = {COLUMNS, ROWS, 0, -575, 10, values, values, values, values, values, values};
     assert_int_equal(sb_maps_write(folder, &map, beside, NULL), SB_OK);
 }
 
@@ -123,6 +123,8 @@ static void pictures_are_drawn(void **state)
     const char *const names[] = {"plots/forces.png", "plots/gauges.png",   "plots/probes.png",
                                  "plots/energy.png", "maps/max_depth.png", "maps/arrival_time.png"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) assert_true(is_png(names[i]));
+    assert_true(access(in_folder("maps/ground.asc"), F_OK) == 0);
+    assert_true(access(in_folder("maps/ground.png"), F_OK) != 0); /* no map of the water */
     assert_true(access(in_folder("plots/forces.gp"), F_OK) != 0);
     assert_true(access(in_folder("plots/forces.dat"), F_OK) != 0);
 }

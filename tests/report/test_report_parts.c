@@ -128,9 +128,11 @@ static void damaged_maps(void **state)
     mkdir(in_folder("run/maps"), 0777);
     write_text("run/maps/max_depth.asc", "ncols x\n");
     write_text("run/maps/max_speed.asc", map_text);
+    write_text("run/maps/ground.asc", map_text); /* no map of the water */
     char *text = report_text();
     assert_has(text, "max_depth.asc: line 1: expected ncols and a number");
     assert_has(text, "greatest speed (m/s)");
+    assert_null(strstr(text, "ground (z, m)"));
     sb_free(text);
 }
 

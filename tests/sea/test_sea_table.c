@@ -136,7 +136,10 @@ static void what_is_refused(void **state)
     sea_refused(SEA_FLAT, TABLE, "t,eta,u\n0,0,0\n29,nan,0\n", "table.csv:3: eta is nan, expected a number");
     sea_refused(SEA_FLAT, TABLE, "t,eta,u\n0,0,0\n29,0,\n", "table.csv:3: u is missing");
     sea_refused(SEA_FLAT, TABLE, "t;eta;u\n0;0,0;0\n29;0,1;0\n",
-                "table.csv:2: 4 columns, expected at most the 3 of the table; decimals have points");
+                "table.csv:2: has commas and semicolons, expected one kind of separator; decimals have points");
+    sea_refused(SEA_FLAT, TABLE, "0;0,12;0\n29;0,12;0\n", "table.csv:1: has commas and semicolons");
+    sea_refused(SEA_FLAT, TABLE, "t,eta,u\n0,0,0\n29,0,12,0\n",
+                "table.csv:3: 4 columns, expected at most the 3 of the table; decimals have points");
     sea_refused(SEA_FLAT, TABLE, "0,0,0\n29,0,0,0\n", "table.csv:2: 4 columns");
     sea_refused(SEA_FLAT, TABLE, "t,eta,u\n0,0,0\n8,0,0\n7,0,0\n29,0,0\n",
                 "table.csv:4: time 7 s does not follow 8 s, expected increasing times");
