@@ -231,6 +231,19 @@ static void an_oblique_line_is_read_like_any_other(void **state)
     fake_world_free(&world);
 }
 
+/* The run-up along the line from x = 2 to 55, with what is wetted by the model's boundary particles. */
+static sb_runup_record read_with_shore(fake_world *world)
+{
+    const sb_runup_line line = {"line", 2, 5, 55, 5};
+    sb_measure_view view = fake_view(world);
+    sb_runup_record r = {0};
+    sb_shore shore = {0};
+    assert_int_equal(sb_shore_find(&world->scene, &world->model, &line, &shore, NULL), SB_OK);
+    assert_int_equal(sb_runup_read(&view, &line, &shore, &r, NULL), SB_OK);
+    sb_shore_free(&shore);
+    return r;
+}
+
 /* Water 2 m deep, with the crest of a wave at x = 10, before a wall with its face at x = 30 and its crest at z = 4. Of
    a jet 10 m high at the face, which is connected, what is within 1.5 spacings of the wall has wetted it. A paddle is
    no shore. */
@@ -259,16 +272,10 @@ static void a_jet_beyond_a_wall_is_not_the_runup(void **state)
         fill(&world, 0, 30, 0, 2);
         fill(&world, 10, 12, 2, 9);
         fill(&world, 28, 30, 2, jet);
-        const sb_runup_line line = {"line", 2, 5, 55, 5};
-        sb_measure_view view = fake_view(&world);
-        sb_runup_record r = {0};
-        sb_shore shore = {0};
-        assert_int_equal(sb_shore_find(&world.scene, &world.model, &line, &shore, NULL), SB_OK);
-        assert_int_equal(sb_runup_read(&view, &line, &shore, &r, NULL), SB_OK);
+        const sb_runup_record r = read_with_shore(&world);
         if (k < 2) assert_true(r.place.z > 4 && r.place.z <= 4 + 2 * SPACING);
         if (k >= 2) assert_true(fabs(r.place.z - jet) < 1e-9);
         assert_true(r.place.x > 29 && fabs(r.front - 28) < 1e-9);
-        sb_shore_free(&shore);
         fake_world_free(&world);
     }
 }
@@ -298,16 +305,10 @@ static void the_upper_layers_of_a_flow_do_not_wet_the_land(void **state)
         world.model.wall_position = points;
         world.model.wall_normal = normals;
         fake_fill(&world, sb_vec(0, 0, 0), sb_vec(20, 10, 3), 0, 0, 0.2, 1);
-        const sb_runup_line line = {"line", 2, 5, 55, 5};
-        sb_measure_view view = fake_view(&world);
-        sb_runup_record r = {0};
-        sb_shore shore = {0};
-        assert_int_equal(sb_shore_find(&world.scene, &world.model, &line, &shore, NULL), SB_OK);
-        assert_int_equal(sb_runup_read(&view, &line, &shore, &r, NULL), SB_OK);
+        const sb_runup_record r = read_with_shore(&world);
         if (k < 4) assert_true(r.place.z > 0.5 && r.place.z <= 2 * SPACING);
         if (k >= 4) assert_true(isnan(r.place.z));
         assert_true(fabs(r.front - 18) < 0.2);
-        sb_shore_free(&shore);
         fake_world_free(&world);
     }
 }
