@@ -27,25 +27,24 @@ static void page_of_a_run(void **state)
              " document.querySelector('#login button').click())",
              shown_token());
     chromium_true(browser, text);
-    chromium_await(browser, "!document.getElementById('command-step').disabled", 5);
-    chromium_true(browser, "document.getElementById('command-step').click()");
+    chromium_press(browser, "command-step");
     chromium_await(browser, "document.getElementById('why').textContent === 'Step: 1 step, then paused'", 5);
-    chromium_true(browser, "document.getElementById('command-resume').click()");
+    chromium_press(browser, "command-resume");
     chromium_await(browser, "shorebreak.times.time > 0.1", 10);
     chromium_await(browser, "document.getElementById('state').textContent === 'running'", 5);
-    chromium_true(browser, "document.getElementById('command-pause').click()");
+    chromium_press(browser, "command-pause");
     chromium_await(browser, "document.getElementById('state').textContent === 'paused'", 5);
     usleep(300000);
     const double time = chromium_number(browser, "shorebreak.times.time");
     usleep(800000);
     assert_near(chromium_number(browser, "shorebreak.times.time"), time, 0);
-    chromium_true(browser, "document.getElementById('command-resume').click()");
+    chromium_press(browser, "command-resume");
     snprintf(text, sizeof text, "shorebreak.times.time > %.9g", time);
     chromium_await(browser, text, 10);
     chromium_await(browser, "document.querySelectorAll('#forces canvas').length > 0", 5);
     /* A button that ends the run is pressed twice. */
-    chromium_true(browser, "document.getElementById('command-stop').click()");
-    chromium_true(browser, "document.getElementById('command-stop').click()");
+    chromium_press(browser, "command-stop");
+    chromium_press(browser, "command-stop");
     chromium_await(browser, "document.getElementById('notice').textContent.startsWith('The run has ended')", 10);
     outcome o = program_finish(run);
     assert_contains(o.err, "stopped by a command");

@@ -241,6 +241,15 @@ void chromium_await(chromium *browser, const char *expression, double seconds)
     fail_msg("not within %g s: %s\nerrors: %s\npage: %s", seconds, expression, browser->errors, state);
 }
 
+void chromium_press(chromium *browser, const char *id)
+{
+    char expression[128];
+    snprintf(expression, sizeof expression, "!document.getElementById('%s').disabled", id);
+    chromium_await(browser, expression, 10);
+    snprintf(expression, sizeof expression, "document.getElementById('%s').click()", id);
+    chromium_true(browser, expression);
+}
+
 void chromium_mouse(chromium *browser, const char *type, double x, double y)
 {
     tell(browser, "Input.dispatchMouseEvent",

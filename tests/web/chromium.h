@@ -25,6 +25,9 @@ bool chromium_true(chromium *browser, const char *expression);
 char *chromium_text(chromium *browser, const char *expression);
 /* Waits until the expression is true; fails with it otherwise. */
 void chromium_await(chromium *browser, const char *expression, double seconds);
+/* Clicks the button with this id when it can be pressed: a click on a disabled button does nothing. A button that waits
+   for a state of the run is disabled until the page has heard of that state. */
+void chromium_press(chromium *browser, const char *id);
 
 /* type: mousePressed, mouseMoved, mouseReleased. */
 void chromium_mouse(chromium *browser, const char *type, double x, double y);

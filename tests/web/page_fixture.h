@@ -226,9 +226,7 @@ static inline int skip_without_chromium(void)
 
 static inline void click(const char *id)
 {
-    char expression[128];
-    snprintf(expression, sizeof expression, "document.getElementById('%s').click()", id);
-    chromium_true(browser, expression);
+    chromium_press(browser, id);
 }
 
 #endif
