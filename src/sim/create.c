@@ -52,6 +52,8 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
         .wall_shear = shear,
         .wall_drag = shear || n->wall_friction > 0,
         .images = n->walls == SB_WALLS_IMAGES,
+        .wall_lists = n->walls != SB_WALLS_IMAGES,
+        .wall_body = n->walls == SB_WALLS_IMAGES && (shear || n->wall_friction > 0),
         .sea = sb_scene_has_sea(scene),
         .surface_tension = scene->fluid.surface_tension > 0,
         .sponge = has_sponge(scene, SB_SPONGE_DAMPING),

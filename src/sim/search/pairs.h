@@ -92,7 +92,7 @@ typedef struct sb_edge_pairs {
 
 /* Boundary particles around particle i: [first[i], first[i] + count[i]), padded to a multiple of four with slope 0. */
 typedef struct sb_pairs {
-    uint32_t *first; /* n */
+    uint32_t *first; /* n; NULL: walls reflect, and there are no lists */
     uint16_t *count; /* n, padded to a multiple of 4 */
     uint32_t *index; /* see sim/walls/entry.h */
     float *slope;    /* psi W'(r)/r times the quantum */

@@ -52,6 +52,10 @@ typedef struct sb_solve {
     bool capped;          /* it stopped at max_iterations above its tolerance */
 } sb_solve;
 
+/* No body: there are no boundary particles around a particle; or they are of several bodies or images of them. */
+#define SB_WALL_NONE UINT32_MAX
+#define SB_WALL_SEVERAL (UINT32_MAX - 1)
+
 enum { SB_FORCE_VALUES = 9 }; /* of a body: pressure and drag, N, and moment, N m: three components each */
 
 /* Sums over the particles of a cell: yy, xy, xz, yz of their strains; xx, and their number. */
@@ -84,10 +88,12 @@ typedef struct sb_work {
     size_t node_capacity;
     sb_f4 *corrected; /* m/s, velocity after the stress correction */
 
-    float *eddy;      /* m^2/s, nu_t at the step's start, and of viscous sponges; NULL without both */
-    sb_f4 *wall_drag; /* m/s^2, by friction and shear of walls, for particles beside walls; NULL without drag */
-    sb_f4 *pull;      /* m/s^2, by surface tension (sim/terms/surface_tension.h); NULL without it */
-    sb_f4 *predicted; /* m/s, v*: the velocity before the pressure */
+    float *eddy;         /* m^2/s, nu_t at the step's start, and of viscous sponges; NULL without both */
+    sb_f4 *wall_drag;    /* m/s^2, by friction and shear of walls, for particles beside walls; NULL without drag */
+    uint32_t *wall_body; /* the body of all boundary particles around a particle, or SB_WALL_NONE, SB_WALL_SEVERAL; NULL
+                            with lists of them, or without drag */
+    sb_f4 *pull;         /* m/s^2, by surface tension (sim/terms/surface_tension.h); NULL without it */
+    sb_f4 *predicted;    /* m/s, v*: the velocity before the pressure */
 
     float *source;       /* b_i, kg/m^3 */
     float *rate;         /* kg/m^3/s, of the density, of wcsph; NULL: steps are implicit */

@@ -159,10 +159,10 @@ static void run(const sb_passes *form, int pass, sb_sim *sim, double *force)
         memcpy(force, sim->work.stress_force, sim->model->body_count * SB_FORCE_VALUES * sizeof *force);
         break;
     case STRAIN_RATE:
-        form->strain_rate(sim);
+        assert_int_equal(form->strain_rate(sim, &error), SB_OK);
         break;
     case FORCES:
-        form->forces(sim, &viscous, &law);
+        assert_int_equal(form->forces(sim, &viscous, &law, &error), SB_OK);
         break;
     case ACCELERATE:
         form->accelerate(sim);

@@ -90,11 +90,13 @@ static void virial_group(sb_sim *sim, const sb_group *group, const void *argumen
             const sb_vec3 d = sb_sub(own, sb_image_place(&around, p.path, place_before(sim, group, p.other)));
             sum += (unknown_of(sim, (uint32_t)i) + unknown_of(sim, p.other)) * p.slope * sb_dot(d, d);
         }
-        for (size_t k = 0; k < sim->work.wall_pairs.count[i] && !sim->needs.images; k++) {
-            const sb_one_wall wall = sb_wall_at(sim, i, k);
-            const sb_record record = sb_wall_set_of(sim, wall.entry)->record[sb_wall_particle(wall.entry)];
+        sb_one_wall walls[SB_PLAIN_WALLS_MAX];
+        const size_t count = sim->needs.images ? 0 : sb_plain_walls(sim, i, walls);
+        for (size_t k = 0; k < count; k++) {
+            const uint32_t entry = walls[k].entry;
+            const sb_record record = sb_wall_set_of(sim, entry)->record[sb_wall_particle(entry)];
             const sb_vec3 d = sb_sub(own, sb_offset_of(record, group->corner));
-            sum += unknown_of(sim, (uint32_t)i) * wall.slope * sb_dot(d, d);
+            sum += unknown_of(sim, (uint32_t)i) * walls[k].slope * sb_dot(d, d);
         }
         sim->work.virial[i] = (float)(factor * sum);
     }
