@@ -74,7 +74,8 @@ typedef struct sb_work {
     sb_record *sorted;                 /* one state field of any type, in its new order */
     sb_record *images;                 /* beyond periodic sides, in the order of their originals */
 
-    sb_f4 *wall;          /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib */
+    sb_f4 *wall;          /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib; NULL: walls reflect */
+    float *flux;          /* the last lane of `wall` by walls that reflect; NULL: they do not */
     sb_f4 *image_push;    /* m/s^2, by the hydrostatic part of the pressure of images; NULL: walls do not reflect */
     float *density;       /* kg/m^3, density correction included */
     float *water_squared; /* |sum_j m grad W_ij|^2 */

@@ -117,7 +117,7 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, sb_w
     if (lists) walls = sb_wall_list_of(sim, finder, i);
     t.body = lists ? sb_wall_list_body(sim, walls) : sim->work.wall_body[i];
     if (t.body != SB_WALL_SEVERAL) { /* the usual case: the sums exist already */
-        t.pushed = sim->work.wall[i];
+        t.pushed = sb_wall_vector(sim, i);
         drag = t.drag = law ? sim->work.wall_drag[i] : (sb_f4){0};
         flush(&t);
         return drag;

@@ -108,8 +108,10 @@ static void do_group(sb_sim *sim, const sb_group *group, const void *arguments)
             a += fluid_part(sim, group, around, i, f, true);
         else if (viscous)
             a += fluid_part(sim, group, around, i, f, false);
+        const sb_f4 push =
+            sim->work.image_push ? sim->work.image_push[i] : (sb_f4){0}; /* its memory becomes wall_drag */
         if (law->on) a += drag_part(sim, i, &finder, law);
-        if (sim->work.image_push) a += sim->work.image_push[i];
+        if (sim->work.image_push) a += push;
         a[3] = 0;
         next[i] = sim->state.velocity[i] + a * sb_splat(dt);
     }

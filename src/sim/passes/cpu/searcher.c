@@ -108,7 +108,10 @@ SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists,
     const sb_f4 all = sum + doubled + wall;
     for (int axis = 0; axis < 3; axis++) diagonal += all[axis] * all[axis];
     sim->work.density[i] = density;
-    sim->work.wall[i] = wall;
+    if (sim->work.wall)
+        sim->work.wall[i] = wall;
+    else
+        sim->work.flux[i] = wall[3];
     sim->work.diagonal[i] = diagonal > 1e-6f * c->full_diagonal ? diagonal : 0;
 }
 

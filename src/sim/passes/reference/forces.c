@@ -153,12 +153,12 @@ static void forces_group(sb_sim *sim, const sb_group *group, const void *argumen
         sb_vec3 a = sb_vec(0, 0, -(double)sim->constant.gravity), drag = {0};
         if (sim->policy->holds_wave) a.x += (double)sb_settle_wave_acceleration(sim, sim->state.position[i]);
         if (terms->viscous->on) a = sb_add(a, viscous_part(sim, &around, i, terms->viscous));
+        if (sim->needs.images) a = sb_add(a, sb_vector_of(sim->work.image_push[i]));
         sb_one_wall walls[SB_PLAIN_WALLS_MAX];
         const size_t count = terms->law->on ? sb_plain_walls(sim, i, walls) : 0;
         for (size_t k = 0; k < count; k++) drag = sb_add(drag, sb_plain_drag(sim, i, &walls[k], terms->law));
         if (count > 0) sim->work.wall_drag[i] = (sb_f4){(float)drag.x, (float)drag.y, (float)drag.z, 0};
         if (sim->work.wall_body) sim->work.wall_body[i] = body_of(sim, walls, count);
-        if (sim->needs.images) a = sb_add(a, sb_vector_of(sim->work.image_push[i]));
         const sb_vec3 change = sb_scale(sb_add(a, drag), sim->state.time_step);
         sim->work.predicted[i] = sim->state.velocity[i] + (sb_f4){(float)change.x, (float)change.y, (float)change.z, 0};
     }

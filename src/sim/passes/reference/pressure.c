@@ -11,7 +11,7 @@ static void accelerate_group(sb_sim *sim, const sb_group *group, const void *arg
     sb_indices_of(sim, group, &around);
     for (size_t i = group->first; i < group->end; i++) {
         const double own = (double)sb_carried_value(sim->state.position[i]);
-        sb_vec3 sum = sb_scale(sb_vector_of(sim->work.wall[i]), own);
+        sb_vec3 sum = sb_scale(sb_vector_of(sb_wall_vector(sim, i)), own);
         for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
             const sb_one_pair p = sb_pair_at(sim, &around, i, k);
             const double other = (double)sb_carried_value(sim->state.position[p.other]);
@@ -43,7 +43,7 @@ static void diverge_group(sb_sim *sim, const sb_group *group, const void *argume
     sb_indices_of(sim, group, &around);
     for (size_t i = group->first; i < group->end; i++) {
         const sb_vec3 own = sb_vector_of(of->field[i]);
-        double sum = sb_dot(own, sb_vector_of(sim->work.wall[i]));
+        double sum = sb_dot(own, sb_vector_of(sb_wall_vector(sim, i)));
         for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
             const sb_one_pair p = sb_pair_at(sim, &around, i, k);
             const sb_vec3 other = sb_image_vector(&around, p.path, sb_vector_of(of->field[p.other]));
