@@ -3,7 +3,7 @@
 #include "sim/passes/cpu/wall_finder.h"
 #include "sim/passes/groups.h"
 #include "sim/terms/turbulence.h"
-#include "sim/walls/entry.h"
+#include "sim/walls/normals.h"
 
 #include <math.h>
 
@@ -40,7 +40,7 @@ SB_INLINE float wall_distance(const sb_sim *sim, sb_wall_finder *finder, size_t 
     for (size_t k = 0; k < walls.count; k++) {
         const sb_wall_set *set = sb_wall_set_of(sim, walls.index[k]);
         const uint32_t b = sb_wall_particle(walls.index[k]);
-        const sb_f4 d = sb_offset(sim->state.position[i], set->record[b]), normal = set->normal[b];
+        const sb_f4 d = sb_offset(sim->state.position[i], set->record[b]), normal = sb_wall_normal(sim, set, b);
         const float square = sb_sum3(d * d);
         if (square >= nearest) continue;
         nearest = square;

@@ -1,5 +1,6 @@
 /* Boundary particles around a particle, by testing all around its cell. */
 #include "sim/passes/reference/pairs.h"
+#include "sim/walls/normals.h"
 
 #include <math.h>
 
@@ -35,7 +36,7 @@ static size_t add_cell(const sb_sim *sim, uint32_t number, uint64_t code, size_t
                           psi * w.value,
                           psi * w.slope,
                           d,
-                          sb_vector_of(set->normal[b]),
+                          sb_vector_of(sb_wall_normal(sim, set, b)),
                           sb_sub(sb_vector_of(sim->state.velocity[i]), sb_vector_of(sb_wall_velocity(sim, entry)))};
     }
     return count;
