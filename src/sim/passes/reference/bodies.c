@@ -93,7 +93,7 @@ static void react_images(const sb_sim *sim, const sb_indices *around, size_t i, 
         const sb_edge_pair *e = sb_edge_at(sim, i, k);
         const double q = own + unknown_of(sim, e->entry);
         act_on(sim, sb_mirror_body(sim, e->mirror), sb_add(at, sb_mirror_shift(sim, e->mirror)),
-               sb_scale(sb_vector_of(e->own), (double)sim->constant.mass * q), (sb_vec3){0}, force);
+               sb_scale(sb_vector_of(sb_edge_own(e)), (double)sim->constant.mass * q), (sb_vec3){0}, force);
     }
 }
 

@@ -19,7 +19,8 @@ static void accelerate_group(sb_sim *sim, const sb_group *group, const void *arg
         }
         for (size_t k = 0; k < sb_edge_count(sim, i); k++) {
             const sb_edge_pair *e = sb_edge_at(sim, i, k);
-            sum = sb_madd(sum, own + (double)sb_carried_value(sim->state.position[e->entry]), sb_vector_of(e->own));
+            sum = sb_madd(sum, own + (double)sb_carried_value(sim->state.position[e->entry]),
+                          sb_vector_of(sb_edge_own(e)));
         }
         sim->work.acceleration[i] = (sb_f4){(float)-sum.x, (float)-sum.y, (float)-sum.z, 0};
     }
@@ -51,8 +52,8 @@ static void diverge_group(sb_sim *sim, const sb_group *group, const void *argume
         }
         for (size_t k = 0; k < sb_edge_count(sim, i); k++) {
             const sb_edge_pair *e = sb_edge_at(sim, i, k);
-            sum +=
-                sb_dot(sb_vector_of(e->own), own) + sb_dot(sb_vector_of(e->other), sb_vector_of(of->field[e->entry]));
+            sum += sb_dot(sb_vector_of(sb_edge_own(e)), own) +
+                   sb_dot(sb_vector_of(sb_edge_other(e)), sb_vector_of(of->field[e->entry]));
         }
         of->out[i] = (float)((double)of->factor * sum);
     }
