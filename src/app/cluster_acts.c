@@ -60,13 +60,19 @@ static sb_status act_create(run *r, const order *given, sb_error *error)
 {
     sb_status status = sb_sim_create(r->scene, &r->model, r->cluster.ranks, &r->sim, error);
     if (status == SB_OK && given->flag == 0) status = sb_sim_check_start(r->sim, error);
+    if (status == SB_OK) status = sb_measure_prepare(r->scene, &r->model, &r->prepared, error);
+    if (status == SB_OK) sb_model_free_walls(&r->model);
     return status;
 }
 
 static sb_status act_measure(run *r, const order *given, sb_error *error)
 {
     if (given->flag != 0) sb_sim_find_virial_pressures(r->sim);
-    return sb_measure_create(r->scene, &r->model, r->sim, &r->measure, error);
+    const sb_status status = sb_measure_start(r->prepared, r->sim, error);
+    if (status != SB_OK) return status;
+    r->measure = r->prepared;
+    r->prepared = NULL;
+    return SB_OK;
 }
 
 /* Between two steps of settling, rank 0 gives orders, and the others follow until it orders to go on. */
@@ -180,9 +186,10 @@ static sb_status act_release(run *r, const order *given, sb_error *error)
 {
     (void)given;
     (void)error;
+    sb_measure_destroy(r->prepared);
     sb_measure_destroy(r->measure);
     sb_sim_destroy(r->sim);
-    r->measure = NULL;
+    r->prepared = r->measure = NULL;
     r->sim = NULL;
     return SB_OK;
 }

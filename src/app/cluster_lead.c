@@ -153,6 +153,7 @@ void sb_cluster_follow(const sb_scene *scene, const char *directory, const sb_ru
     sb_stop_defer(true);
     (void)sb_checkpoint_begin(&r, NULL); /* rank 0 does the same, and says why if it fails */
     while (given.what != ORDER_DISMISS) (void)sb_cluster_next(&r, &given, NULL);
+    sb_measure_destroy(r.prepared);
     sb_measure_destroy(r.measure);
     sb_sim_destroy(r.sim);
     sb_checkpoint_end(&r);

@@ -251,6 +251,7 @@ sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_opti
     sb_cluster_dismiss(&r);
     if (options->profile && r.sim) print_profile(&r);
     sb_checkpoint_end(&r);
+    sb_measure_destroy(r.prepared);
     sb_measure_destroy(r.measure);
     sb_sim_destroy(r.sim);
     release_shared(&r, options->thread_remains);

@@ -98,7 +98,8 @@ typedef struct run {
     sb_run_files earlier; /* the files in the directory before the run began */
     sb_model model;
     sb_sim *sim;
-    sb_measure *measure;
+    sb_measure *prepared; /* until the water has settled; then NULL */
+    sb_measure *measure;  /* from then on */
     sb_csv *csv;
     sb_runlog *log;
     sb_progress progress;

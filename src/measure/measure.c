@@ -241,7 +241,7 @@ static void note_skipped(sb_measure *measure)
     if (!settings->map.present) measure->skipped[n++].what = "maps: none";
 }
 
-static sb_status prepare_bodies(sb_measure *measure, const sb_sim *sim, sb_error *error)
+static sb_status prepare_bodies(sb_measure *measure, sb_error *error)
 {
     size_t count = measure->model->body_count;
     measure->states = sb_alloc(count, sizeof *measure->states);
@@ -251,7 +251,6 @@ static sb_status prepare_bodies(sb_measure *measure, const sb_sim *sim, sb_error
         const sb_model_body *body = &measure->model->bodies[b];
         body_state *state = &measure->states[b];
         measure->bodies[b].report = body->report;
-        state->start = state->boundary = state->last = *sb_sim_impulse(sim, b);
         /* A terrain has no faces at which water could stand. */
         state->faces = body->report && sb_model_body_walls(measure->model, b) > 0 && body->role != SB_ROLE_TERRAIN;
         measure->bodies[b].layers = state->faces ? 0 : (double)NAN;
@@ -260,15 +259,11 @@ static sb_status prepare_bodies(sb_measure *measure, const sb_sim *sim, sb_error
     return SB_OK;
 }
 
-static sb_status prepare_fields(sb_measure *measure, const sb_measure_view *view, sb_error *error)
+/* What gauges, run-up lines and probes need of boundary particles. */
+static sb_status prepare_places(sb_measure *measure, sb_error *error)
 {
     const sb_measure_settings *settings = &measure->scene->measure;
     sb_status status = SB_OK;
-    if (settings->plane_count) {
-        measure->planes = sb_alloc(settings->plane_count, sizeof *measure->planes);
-        measure->counters = sb_alloc(settings->plane_count, sizeof(sb_plane_counter *));
-        if (!measure->planes || !measure->counters) return sb_fail_memory(error, "measure.planes");
-    }
     if (settings->gauge_count) {
         measure->floors = sb_alloc(settings->gauge_count, sizeof *measure->floors);
         measure->gauges = sb_alloc(settings->gauge_count, sizeof *measure->gauges);
@@ -291,43 +286,79 @@ static sb_status prepare_fields(sb_measure *measure, const sb_measure_view *view
     }
     for (size_t i = 0; status == SB_OK && i < settings->probe_count; i++)
         status = sb_patch_create(measure->scene, measure->model, &settings->probes[i], &measure->patches[i], error);
+    return status;
+}
+
+static sb_status start_fields(sb_measure *measure, const sb_measure_view *view, sb_error *error)
+{
+    const sb_measure_settings *settings = &measure->scene->measure;
+    sb_status status = SB_OK;
+    if (settings->plane_count) {
+        measure->planes = sb_alloc(settings->plane_count, sizeof *measure->planes);
+        measure->counters = sb_alloc(settings->plane_count, sizeof(sb_plane_counter *));
+        if (!measure->planes || !measure->counters) return sb_fail_memory(error, "measure.planes");
+    }
     for (size_t i = 0; status == SB_OK && i < settings->plane_count; i++)
         status = sb_plane_counter_create(view, &settings->planes[i], &measure->counters[i], error);
     if (status == SB_OK && settings->map.present) status = sb_map_create(view, measure->model, &measure->map, error);
     return status;
 }
 
-sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, sb_sim *sim, sb_measure **measure,
-                            sb_error *error)
+sb_status sb_measure_prepare(const sb_scene *scene, const sb_model *model, sb_measure **measure, sb_error *error)
 {
     sb_measure *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, "measurements");
     made->scene = scene;
     made->model = model;
     made->interval = scene->measure.interval;
-    made->time = sb_sim_report(sim)->time;
-    made->next = (uint64_t)floor(made->time / made->interval + 1e-9) + 1;
-    sb_measure_view view = view_of(made, sim, 0);
-    sb_status status = prepare_bodies(made, sim, error);
-    if (status == SB_OK) status = prepare_fields(made, &view, error);
-    if (status == SB_OK) status = sb_reflections_create(made, error);
+    sb_status status = prepare_bodies(made, error);
+    if (status == SB_OK) status = prepare_places(made, error);
     if (status == SB_OK) status = sb_records_create(made, error);
-    if (status == SB_OK && scene->render.loads) status = sb_loads_create(scene, model, &made->loads, error);
-    if (status == SB_OK) status = sb_wall_probes_start(made, sim, error);
-    if (status == SB_OK) status = record_instants(made, &view, made->time, -1, error);
-    if (status == SB_OK) status = record_waters(made, &view, made->time, made->next - 1, error);
-    if (status == SB_OK) status = record_flows(made, made->time, 0, error);
-    if (status == SB_OK) status = record_layers(made, &view, error);
-    if (status == SB_OK) status = record_energy(made, sim, error);
-    if (status == SB_OK) status = record_absorbers(made, sim, error);
     if (status != SB_OK) {
         sb_measure_destroy(made);
         return status;
     }
-    note_skipped(made);
-    publish(made);
     *measure = made;
     return SB_OK;
+}
+
+sb_status sb_measure_start(sb_measure *measure, sb_sim *sim, sb_error *error)
+{
+    measure->time = sb_sim_report(sim)->time;
+    measure->next = (uint64_t)floor(measure->time / measure->interval + 1e-9) + 1;
+    for (size_t b = 0; b < measure->model->body_count; b++) {
+        body_state *state = &measure->states[b];
+        state->start = state->boundary = state->last = *sb_sim_impulse(sim, b);
+    }
+    sb_measure_view view = view_of(measure, sim, 0);
+    sb_status status = start_fields(measure, &view, error);
+    if (status == SB_OK) status = sb_reflections_create(measure, error);
+    if (status == SB_OK && measure->scene->render.loads)
+        status = sb_loads_create(measure->scene, measure->model, &measure->loads, error);
+    if (status == SB_OK) status = sb_wall_probes_start(measure, sim, error);
+    if (status == SB_OK) status = record_instants(measure, &view, measure->time, -1, error);
+    if (status == SB_OK) status = record_waters(measure, &view, measure->time, measure->next - 1, error);
+    if (status == SB_OK) status = record_flows(measure, measure->time, 0, error);
+    if (status == SB_OK) status = record_layers(measure, &view, error);
+    if (status == SB_OK) status = record_energy(measure, sim, error);
+    if (status == SB_OK) status = record_absorbers(measure, sim, error);
+    if (status != SB_OK) return status;
+    note_skipped(measure);
+    publish(measure);
+    return SB_OK;
+}
+
+sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, sb_sim *sim, sb_measure **measure,
+                            sb_error *error)
+{
+    sb_measure *made = NULL;
+    sb_status status = sb_measure_prepare(scene, model, &made, error);
+    if (status == SB_OK) status = sb_measure_start(made, sim, error);
+    if (status == SB_OK)
+        *measure = made;
+    else
+        sb_measure_destroy(made);
+    return status;
 }
 
 void sb_measure_destroy(sb_measure *measure)

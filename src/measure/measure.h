@@ -12,8 +12,13 @@ typedef struct sb_measurements sb_measure; /* scene.h already has a struct with 
    frees *places. SB_FAILED without memory. */
 sb_status sb_measure_places(const sb_scene *scene, sb_model_place **places, size_t *count, sb_error *error);
 
+/* Finds what measurements need of the model's boundary particles, which may be freed afterwards (sb_model_free_walls).
+   scene and model must outlive *measure, which sb_measure_start completes; until then it can only be destroyed. */
+sb_status sb_measure_prepare(const sb_scene *scene, const sb_model *model, sb_measure **measure, sb_error *error);
 /* Call after settling. Impulses are summed from this time on. The instant records of this time (gauges, probes, run-up,
-   planes, energy) are ready in sb_measure_latest. scene and model must outlive *measure. */
+   planes, energy) are ready in sb_measure_latest. On error the measurements can only be destroyed. */
+sb_status sb_measure_start(sb_measure *measure, sb_sim *sim, sb_error *error);
+/* Both at once. */
 sb_status sb_measure_create(const sb_scene *scene, const sb_model *model, sb_sim *sim, sb_measure **measure,
                             sb_error *error);
 void sb_measure_destroy(sb_measure *measure);

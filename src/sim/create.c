@@ -13,6 +13,7 @@
 #include "sim/terms/density_correction.h"
 #include "sim/terms/surface_tension.h"
 #include "sim/walls/mirrors.h"
+#include "sim/walls/normals.h"
 #include "sim/walls/pushes.h"
 #include "sim/walls/walls.h"
 #include "sim/wcsph/wcsph.h"
@@ -52,6 +53,8 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
         .wall_shear = shear,
         .wall_drag = shear || n->wall_friction > 0,
         .images = n->walls == SB_WALLS_IMAGES,
+        .wall_lists = n->walls != SB_WALLS_IMAGES,
+        .wall_body = n->walls == SB_WALLS_IMAGES && (shear || n->wall_friction > 0),
         .sea = sb_scene_has_sea(scene),
         .surface_tension = scene->fluid.surface_tension > 0,
         .sponge = has_sponge(scene, SB_SPONGE_DAMPING),
@@ -274,7 +277,7 @@ sb_division sb_sim_division(const sb_sim *sim)
 
 size_t sb_sim_bytes(const sb_sim *sim)
 {
-    enum { WALL_BYTES = sizeof(sb_record) + sizeof(uint32_t) + sizeof(sb_f4) };
+    enum { WALL_BYTES = sizeof(sb_record) + 2 * sizeof(uint32_t) };
     size_t bytes = sb_state_bytes(&sim->state) + sim->work.bytes + sb_cells_bytes(&sim->cells) +
                    sim->work.cell_sum_capacity * sizeof *sim->work.cell_sum +
                    sim->work.node_capacity * SB_TENSION_VALUES * sizeof *sim->work.node +
@@ -290,7 +293,7 @@ size_t sb_sim_bytes(const sb_sim *sim)
     for (int s = 0; s < SB_WALL_SETS; s++)
         bytes += sb_cells_bytes(&sim->walls.set[s].cells) + sim->walls.set[s].count * WALL_BYTES +
                  (sim->walls.set[s].near_mask + 1) * 8;
-    bytes += sim->walls.share.count * WALL_BYTES;
+    bytes += sim->walls.share.count * WALL_BYTES + sb_wall_normals_bytes(&sim->walls.normals);
     bytes += sim->walls.boundary.count * (4 * sizeof(float) + sizeof(uint32_t));
     return bytes + sim->walls.rest.count * WALL_BYTES;
 }

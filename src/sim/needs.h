@@ -10,6 +10,8 @@ typedef struct sb_needs {
     bool steady_stress;         /* the stress correction leaves out its steady part */
     bool wall_shear, wall_drag; /* drag: shear or friction */
     bool images;                /* walls reflect water */
+    bool wall_lists;            /* boundary particles act by their pairs with water, for which there are lists */
+    bool wall_body;             /* there are none, and walls have drag */
     bool sea;                   /* water of a given sea comes in through a side */
     bool surface_tension;
     bool sponge;         /* zones slow water down */

@@ -26,10 +26,10 @@ typedef struct sb_body_impulse {
 } sb_body_impulse;
 
 /* Creates a simulation. scene and model must outlive it: it reads names, wave makers and, until it has settled, the
-   initial velocities. The exceptions are the parts that sb_model_free_start frees, and, after settling,
-   sb_model_free_particles. ranks: those that compute the run together, which outlive it, each with the same scene and
-   model; NULL: one computes it. "Together" below: all ranks call the function, in the same order and with the same
-   arguments, and get the same result; with one rank it is as any other. Together. */
+   initial velocities. The exceptions are the parts that sb_model_free_start and sb_model_free_walls free, and, after
+   settling, sb_model_free_particles. ranks: those that compute the run together, which outlive it, each with the same
+   scene and model; NULL: one computes it. "Together" below: all ranks call the function, in the same order and with the
+   same arguments, and get the same result; with one rank it is as any other. Together. */
 sb_status sb_sim_create(const sb_scene *scene, const sb_model *model, sb_ranks *ranks, sb_sim **sim, sb_error *error);
 /* The speed of sound (m/s) of a run, of the scene or of its deepest water. */
 double sb_sim_sound_speed(const sb_scene *scene, const sb_model *model);

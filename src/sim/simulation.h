@@ -70,6 +70,18 @@ static inline size_t sb_blocks(const sb_sim *sim)
     return (sim->state.n + SB_BLOCK - 1) / SB_BLOCK;
 }
 
+/* B_i = sum_b psi_b grad W_ib, kg/m^4, which is 0 where walls reflect. The last lane has no meaning. */
+SB_INLINE sb_f4 sb_wall_vector(const sb_sim *sim, size_t i)
+{
+    return sim->work.wall ? sim->work.wall[i] : (sb_f4){0};
+}
+
+/* What the motion of walls adds to the divergence at particle i, kg/m^3/s. */
+SB_INLINE float sb_wall_flux(const sb_sim *sim, size_t i)
+{
+    return sim->work.wall ? sim->work.wall[i][3] : sim->work.flux[i];
+}
+
 static inline size_t sb_block_end(const sb_sim *sim, size_t block)
 {
     size_t end = (block + 1) * SB_BLOCK;

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "physics/wall_volume.h"
 #include "sim/search/around.h"
+#include "sim/walls/normals.h"
 
 #include <math.h>
 #include <string.h>
@@ -24,7 +25,7 @@ static size_t copy_walls(const sb_sim *sim, twin *t)
             t->wall_position[at] = sb_space_position(&sim->space, set->record[b]);
             t->psi[at] = (double)sb_carried_value(set->record[b]);
             t->body[at] = set->body[b];
-            sb_f4 normal = set->normal[b];
+            sb_f4 normal = sb_wall_normal(sim, set, b);
             t->wall_normal[at] = sb_vec((double)normal[0], (double)normal[1], (double)normal[2]);
             if (s == SB_MOVING)
                 t->wall_velocity[at] = sim->walls.moving[sim->walls.moving_of_body[set->body[b]]].velocity;

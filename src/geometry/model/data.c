@@ -34,16 +34,22 @@ void sb_model_free_start(sb_model *model)
     model->fluid_velocity = NULL;
 }
 
+void sb_model_free_walls(sb_model *model)
+{
+    sb_free(model->wall_position);
+    sb_free(model->wall_normal);
+    sb_free(model->walls.of);
+    model->wall_position = model->wall_normal = NULL;
+    model->walls.of = NULL;
+}
+
 void sb_model_free_particles(sb_model *model)
 {
     sb_free(model->fluid_position);
     sb_free(model->fluid_velocity);
     sb_free(model->fluid_pressure);
-    sb_free(model->wall_position);
-    sb_free(model->wall_normal);
-    sb_free(model->walls.of);
-    model->walls.of = NULL;
-    model->fluid_position = model->fluid_velocity = model->wall_position = model->wall_normal = NULL;
+    sb_model_free_walls(model);
+    model->fluid_position = model->fluid_velocity = NULL;
     model->fluid_pressure = NULL;
 }
 

@@ -174,6 +174,10 @@ uint64_t sb_model_hash(const sb_model *model);
    model before. */
 void sb_model_free_start(sb_model *model);
 
+/* Frees the places and normals of the boundary particles. A simulation that was created from the model and measurements
+   that were prepared no longer need them. The counts stay. */
+void sb_model_free_walls(sb_model *model);
+
 /* Frees all remaining arrays of the fluid and boundary particles. They are not needed after the water has settled
    and the measurements are set up. Both counts stay. */
 void sb_model_free_particles(sb_model *model);

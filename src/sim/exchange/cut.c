@@ -22,7 +22,7 @@ static uint64_t load_of(const sb_sim *sim, const sb_group *group)
 {
     uint64_t load = PAIRS_PER_PARTICLE * (uint64_t)(group->end - group->first);
     for (size_t i = group->first; i < group->end; i++)
-        load += 4 * (uint64_t)sim->work.pairs.count[i] + sim->work.wall_pairs.count[i];
+        load += 4 * (uint64_t)sim->work.pairs.count[i] + (sim->needs.wall_lists ? sim->work.wall_pairs.count[i] : 0);
     return load;
 }
 

@@ -4,6 +4,7 @@
 #include "sim/foam/foam.h"
 #include "sim/search/around.h"
 #include "sim/search/sort.h"
+#include "sim/walls/normals.h"
 #include "sim/walls/walls.h"
 
 enum { CHUNK = 256 }; /* particles per unit of work */
@@ -98,7 +99,7 @@ SB_APART bool behind(const sb_sim *sim, const sb_wall_set *set, sb_record at)
             const float square = sb_sum3(from * from);
             if (square >= nearest) continue;
             nearest = square;
-            found = sb_sum3(from * set->normal[b]) < 0;
+            found = sb_sum3(from * sb_wall_normal(sim, set, b)) < 0;
         }
     }
     return found;

@@ -35,7 +35,7 @@ static void find_normals(sb_sim *sim, const sb_group *group, const void *argumen
         }
         const sb_four sums = sb_transpose(x, y, z, (sb_f4){0});
         const sb_f4 sum = (sums.x + sums.y) + (sums.z + sums.w);
-        sb_f4 normal = (sum * sb_splat(unit) + sim->work.wall[i]) * sb_splat(scale);
+        sb_f4 normal = (sum * sb_splat(unit) + sb_wall_vector(sim, i)) * sb_splat(scale);
         const float length = sqrtf(sb_sum3(normal * normal));
         normal *= sb_splat(length > 0 ? 1 / length : 0);
         normal[3] = length;

@@ -38,9 +38,10 @@ typedef struct sb_passes {
        or -1 without memory. */
     int (*correct)(sb_sim *sim);
     /* eddy: nu_t = min(C_s dr, kappa d)^2 |S|. */
-    void (*strain_rate)(sb_sim *sim);
-    /* predicted and wall_drag: v* = v + dt (g + viscosity + drag). Records carry the density if viscous->on. */
-    void (*forces)(sb_sim *sim, const sb_viscous *viscous, const sb_wall_drag *law);
+    sb_status (*strain_rate)(sb_sim *sim, sb_error *error);
+    /* predicted, wall_drag and wall_body: v* = v + dt (g + viscosity + drag). Records carry the density if viscous->on.
+     */
+    sb_status (*forces)(sb_sim *sim, const sb_viscous *viscous, const sb_wall_drag *law, sb_error *error);
     /* acceleration = G argument: a_i = -[sum_j m (q_i + q_j) grad W_ij + q_i B_i]. Records carry the argument. */
     void (*accelerate)(sb_sim *sim);
     /* out = factor [sum_j m (f_i - f_j) . grad W_ij + f_i . B_i]. */
@@ -55,7 +56,7 @@ typedef struct sb_passes {
 extern const sb_passes sb_passes_cpu;
 /* The pressure passes with vectors of 64 bytes; NULL if this processor or this build has no such vectors. */
 const sb_passes *sb_passes_cpu_wide(void);
-/* Plain loops in double precision over the same lists, for tests. */
+/* Plain loops in double precision over the same lists of fluid particles, for tests. */
 extern const sb_passes sb_passes_reference;
 
 /* The form for this processor. All forms but the reference give the same bits. */

@@ -36,7 +36,7 @@ static double source_group(sb_sim *sim, const sb_group *group, double terms[SB_S
     float worst = 0;
     for (size_t i = group->first; i < group->end; i++) {
         const float deficit = rest - sim->work.density[i];
-        sim->work.source[i] = beta * deficit - dt * (sim->work.source[i] - sim->work.wall[i][3]);
+        sim->work.source[i] = beta * deficit - dt * (sim->work.source[i] - sb_wall_flux(sim, i));
         excess += deficit < 0 ? (double)-deficit : 0;
         worst = -deficit > worst ? -deficit : worst;
     }

@@ -219,7 +219,7 @@ SB_INLINE sb_f4 sb_edges_push(const sb_sim *sim, size_t i, float q)
     const sb_edge_pair *e = sim->work.edge_pairs.pair + sim->work.edge_pairs.first[i];
     sb_f4 sum = {0};
     for (const sb_edge_pair *end = e + sim->work.edge_pairs.count[i]; e < end; e++)
-        sum += e->own * sb_splat(q + sb_carried_value(sim->state.position[e->entry]));
+        sum += sb_edge_own(e) * sb_splat(q + sb_carried_value(sim->state.position[e->entry]));
     sum[3] = 0;
     return sum;
 }
@@ -229,7 +229,7 @@ SB_INLINE float sb_edges_flow(const sb_sim *sim, size_t i, const sb_f4 *field)
     const sb_edge_pair *e = sim->work.edge_pairs.pair + sim->work.edge_pairs.first[i];
     float sum = 0;
     for (const sb_edge_pair *end = e + sim->work.edge_pairs.count[i]; e < end; e++)
-        sum += sb_sum3(e->own * field[i] + e->other * field[e->entry]);
+        sum += sb_sum3(sb_edge_own(e) * field[i] + sb_edge_other(e) * field[e->entry]);
     return sum;
 }
 

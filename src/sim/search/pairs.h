@@ -78,9 +78,21 @@ static inline uint16_t sb_direct(const sb_lists *lists, size_t i)
 /* What a pair (i, j) has besides its slope where its weight changes with the places of both: m W times the derivative
    of the weight by x_i (own) and by x_j (other), kg/m^4. mirror: the facet that weighs the path. */
 typedef struct sb_edge_pair {
-    sb_f4 own, other;
-    uint32_t entry, mirror;
+    float own[3];
+    uint32_t entry;
+    float other[3];
+    uint32_t mirror;
 } sb_edge_pair;
+
+SB_INLINE sb_f4 sb_edge_own(const sb_edge_pair *e)
+{
+    return (sb_f4){e->own[0], e->own[1], e->own[2], 0};
+}
+
+SB_INLINE sb_f4 sb_edge_other(const sb_edge_pair *e)
+{
+    return (sb_f4){e->other[0], e->other[1], e->other[2], 0};
+}
 
 /* Such pairs of particle i: [first[i], first[i] + count[i]). */
 typedef struct sb_edge_pairs {
@@ -92,7 +104,7 @@ typedef struct sb_edge_pairs {
 
 /* Boundary particles around particle i: [first[i], first[i] + count[i]), padded to a multiple of four with slope 0. */
 typedef struct sb_pairs {
-    uint32_t *first; /* n */
+    uint32_t *first; /* n; NULL: walls reflect, and there are no lists */
     uint16_t *count; /* n, padded to a multiple of 4 */
     uint32_t *index; /* see sim/walls/entry.h */
     float *slope;    /* psi W'(r)/r times the quantum */

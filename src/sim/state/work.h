@@ -52,6 +52,10 @@ typedef struct sb_solve {
     bool capped;          /* it stopped at max_iterations above its tolerance */
 } sb_solve;
 
+/* No body: there are no boundary particles around a particle; or they are of several bodies or images of them. */
+#define SB_WALL_NONE UINT32_MAX
+#define SB_WALL_SEVERAL (UINT32_MAX - 1)
+
 enum { SB_FORCE_VALUES = 9 }; /* of a body: pressure and drag, N, and moment, N m: three components each */
 
 /* Sums over the particles of a cell: yy, xy, xz, yz of their strains; xx, and their number. */
@@ -70,7 +74,8 @@ typedef struct sb_work {
     sb_record *sorted;                 /* one state field of any type, in its new order */
     sb_record *images;                 /* beyond periodic sides, in the order of their originals */
 
-    sb_f4 *wall;          /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib */
+    sb_f4 *wall;          /* sum_b psi_b grad W_ib; last lane: sum_b psi_b v_b . grad W_ib; NULL: walls reflect */
+    float *flux;          /* the last lane of `wall` by walls that reflect; NULL: they do not */
     sb_f4 *image_push;    /* m/s^2, by the hydrostatic part of the pressure of images; NULL: walls do not reflect */
     float *density;       /* kg/m^3, density correction included */
     float *water_squared; /* |sum_j m grad W_ij|^2 */
@@ -84,10 +89,12 @@ typedef struct sb_work {
     size_t node_capacity;
     sb_f4 *corrected; /* m/s, velocity after the stress correction */
 
-    float *eddy;      /* m^2/s, nu_t at the step's start, and of viscous sponges; NULL without both */
-    sb_f4 *wall_drag; /* m/s^2, by friction and shear of walls, for particles beside walls; NULL without drag */
-    sb_f4 *pull;      /* m/s^2, by surface tension (sim/terms/surface_tension.h); NULL without it */
-    sb_f4 *predicted; /* m/s, v*: the velocity before the pressure */
+    float *eddy;         /* m^2/s, nu_t at the step's start, and of viscous sponges; NULL without both */
+    sb_f4 *wall_drag;    /* m/s^2, by friction and shear of walls, for particles beside walls; NULL without drag */
+    uint32_t *wall_body; /* the body of all boundary particles around a particle, or SB_WALL_NONE, SB_WALL_SEVERAL; NULL
+                            with lists of them, or without drag */
+    sb_f4 *pull;         /* m/s^2, by surface tension (sim/terms/surface_tension.h); NULL without it */
+    sb_f4 *predicted;    /* m/s, v*: the velocity before the pressure */
 
     float *source;       /* b_i, kg/m^3 */
     float *rate;         /* kg/m^3/s, of the density, of wcsph; NULL: steps are implicit */

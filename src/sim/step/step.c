@@ -109,6 +109,7 @@ static sb_status check_finite(const sb_sim *sim, const char *stage_name, sb_erro
 static sb_status run_stages(sb_sim *sim, int halves, sb_error *error)
 {
     sb_status status = SB_OK;
+    sb_phase phase = SB_PHASES; /* the last that has begun; two stages may share one */
     size_t count = 0;
     for (size_t s = 0; s < STAGES && status == SB_OK; s++) {
         if (!sb_needed(&sim->needs, stages[s].needed)) continue;
@@ -116,7 +117,10 @@ static sb_status run_stages(sb_sim *sim, int halves, sb_error *error)
         time->name = stages[s].name;
         if (!(stages[s].halves & halves)) continue;
         const double start = sb_clock();
-        sb_work_enter(&sim->work, stages[s].phase);
+        if (stages[s].phase != SB_PHASES && stages[s].phase != phase) {
+            phase = stages[s].phase;
+            sb_work_enter(&sim->work, phase);
+        }
         sb_status own = stages[s].run(sim, error);
 #ifdef SB_DEBUG
         if (own == SB_OK) own = check_finite(sim, stages[s].name, error);

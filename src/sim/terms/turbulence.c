@@ -5,8 +5,7 @@
 
 sb_status sb_stage_turbulence(sb_sim *sim, sb_error *error)
 {
-    (void)error;
-    sim->passes->strain_rate(sim);
+    const sb_status status = sim->passes->strain_rate(sim, error);
     sb_refresh_values(sim, sim->work.eddy);
-    return SB_OK;
+    return status;
 }

@@ -21,10 +21,8 @@ static sb_viscous factors_of(const sb_sim *sim)
 
 sb_status sb_stage_forces(sb_sim *sim, sb_error *error)
 {
-    (void)error;
     const sb_viscous viscous = factors_of(sim);
     const sb_wall_drag law = sb_wall_drag_make(sim);
     if (viscous.on) sb_pressure_load_begin(sim, sim->work.density);
-    sim->passes->forces(sim, &viscous, &law);
-    return SB_OK;
+    return sim->passes->forces(sim, &viscous, &law, error);
 }

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "sim/exchange/domains.h"
 #include "sim/search/sort.h"
+#include "sim/walls/normals.h"
 #include "sim/walls/walls.h"
 
 #include <string.h>
@@ -32,16 +33,16 @@ void sb_walls_share_free(sb_wall_share *share)
     sb_free(share->cut);
     sb_free(share->record);
     sb_free(share->body);
-    sb_free(share->normal);
+    sb_free(share->facing);
     *share = (sb_wall_share){.cut = NULL};
 }
 
-static int allocate(sb_record **record, uint32_t **body, sb_f4 **normal, size_t count)
+static int allocate(sb_record **record, uint32_t **body, uint32_t **facing, size_t count)
 {
     *record = sb_alloc_untouched(count, sizeof **record);
     *body = sb_alloc_untouched(count, sizeof **body);
-    *normal = sb_alloc_untouched(count, sizeof **normal);
-    return *record && *body && *normal ? 0 : -1;
+    *facing = sb_alloc_untouched(count, sizeof **facing);
+    return *record && *body && *facing ? 0 : -1;
 }
 
 /* Takes an equal share of a set that has all boundary particles. */
@@ -50,7 +51,7 @@ static void take_equal(const sb_sim *sim, const sb_wall_set *set, sb_wall_share 
     const size_t from = set->count * (size_t)sim->ranks->rank / (size_t)sim->ranks->count;
     memcpy(share->record, set->record + from, share->count * sizeof *share->record);
     memcpy(share->body, set->body + from, share->count * sizeof *share->body);
-    memcpy(share->normal, set->normal + from, share->count * sizeof *share->normal);
+    memcpy(share->facing, set->facing + from, share->count * sizeof *share->facing);
 }
 
 /* Takes what is not marked, and takes the marks away. */
@@ -61,7 +62,7 @@ static void take_own(sb_wall_set *set, sb_wall_share *share)
         if (!(set->body[i] & SB_WALL_MARK)) {
             share->record[at] = set->record[i];
             share->body[at] = set->body[i];
-            share->normal[at++] = set->normal[i];
+            share->facing[at++] = set->facing[i];
         }
         set->body[i] &= ~(SB_WALL_MARK | SB_WALL_IMAGE);
     }
@@ -77,7 +78,7 @@ int sb_walls_share(sb_sim *sim)
     if (!divided) share->count = set->count * (own + 1) / ranks - set->count * own / ranks;
     for (size_t i = 0; i < set->count && divided; i++) share->count += !(set->body[i] & SB_WALL_MARK);
     share->cut = sb_alloc(ranks + 1, sizeof *share->cut); /* of no domains */
-    if (!share->cut || allocate(&share->record, &share->body, &share->normal, share->count) != 0) return -1;
+    if (!share->cut || allocate(&share->record, &share->body, &share->facing, share->count) != 0) return -1;
     if (divided)
         take_own(set, share);
     else
@@ -121,8 +122,9 @@ static void board(const sb_sim *sim, delivery *v)
         const size_t readers = sb_domains_readers(sim, share->record[first], rank);
         for (size_t k = 0; k < readers; k++)
             for (size_t i = first; i < end; i++)
-                *place[rank[k]]++ =
-                    (passenger){.record = share->record[i], .normal = share->normal[i], .body = share->body[i]};
+                *place[rank[k]]++ = (passenger){.record = share->record[i],
+                                                .normal = sim->walls.normals.normal[share->facing[i]],
+                                                .body = share->body[i]};
     }
 }
 
@@ -207,7 +209,7 @@ static int settle_in(sb_sim *sim, delivery *v)
     for (size_t i = 0; i < set->count; i++) {
         set->record[i] = v->in[i].record;
         set->body[i] = v->in[i].body & ~SB_WALL_IMAGE;
-        set->normal[i] = v->in[i].normal;
+        if (sb_wall_normals_index(&sim->walls.normals, v->in[i].normal, &set->facing[i]) != 0) return -1;
     }
     if (by_slabs ? sb_walls_table(set, &sim->space) != 0
                  : sb_cells_build(&set->cells, set->record, set->count, sim->space.shift) != 0)
@@ -225,7 +227,7 @@ static void end_delivery(delivery *v)
     sb_free(v->in);
     sb_free(v->set.record);
     sb_free(v->set.body);
-    sb_free(v->set.normal);
+    sb_free(v->set.facing);
     sb_free(v->set.near);
     sb_cells_free(&v->set.cells);
 }
@@ -245,7 +247,7 @@ sb_status sb_walls_divide(sb_sim *sim, sb_error *error)
     }
     v.out = sb_alloc_untouched(v.sent, sizeof *v.out);
     v.in = sb_alloc_untouched(v.arrived, sizeof *v.in);
-    bool failed = allocate(&v.set.record, &v.set.body, &v.set.normal, v.arrived) != 0 || !v.out || !v.in;
+    bool failed = allocate(&v.set.record, &v.set.body, &v.set.facing, v.arrived) != 0 || !v.out || !v.in;
     sb_status status = sb_domains_agree(sim, failed ? sb_fail_memory(error, "boundary particles") : SB_OK, error);
     if (status == SB_OK) {
         board(sim, &v);

@@ -13,7 +13,7 @@ typedef struct sb_wall_set {
     size_t count;
     sb_record *record; /* sorted by cell; last lane: psi_b in kg (kg/m in 2D) */
     uint32_t *body;    /* model body of each */
-    sb_f4 *normal;     /* unit, towards the water; 0 0 0 if the model has none */
+    uint32_t *facing;  /* its normal's index in sb_walls.normals */
     uint32_t *number;  /* of dynamic boundary particles (sim/wcsph/boundary.h); NULL: they are not */
     sb_cells cells;
     uint64_t *near; /* hash set of Z-order blocks with walls in or beside them */
@@ -39,8 +39,7 @@ typedef struct sb_moving_body {
 typedef struct sb_moving_rest {
     size_t count;
     sb_record *record;
-    uint32_t *body;
-    sb_f4 *normal;
+    uint32_t *body, *facing;
     uint32_t *number; /* as in sb_wall_set */
 } sb_moving_rest;
 
@@ -73,12 +72,19 @@ typedef struct sb_wall_share {
     uint64_t *cut; /* of the domains for which the static set was made; NULL: the static set has all */
     size_t count;
     sb_record *record; /* as in sb_wall_set */
-    uint32_t *body;
-    sb_f4 *normal;
+    uint32_t *body, *facing;
 } sb_wall_share;
+
+/* Normals of boundary particles (sim/walls/normals.h). */
+typedef struct sb_wall_normals {
+    size_t count, capacity, slots;
+    sb_f4 *normal;
+    uint32_t *slot; /* hash set of them: index plus 1; 0: none */
+} sb_wall_normals;
 
 typedef struct sb_walls {
     sb_wall_share share;
+    sb_wall_normals normals;
     sb_mirrors mirrors;
     sb_boundary boundary;
     sb_wall_set set[SB_WALL_SETS];

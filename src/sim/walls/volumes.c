@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "physics/wall_volume.h"
 #include "sim/simulation.h"
+#include "sim/walls/normals.h"
 #include "sim/walls/walls.h"
 #include "sim/wcsph/boundary.h"
 
@@ -20,7 +21,7 @@ static void add_sums(const sb_sim *sim, const sb_wall_set *set, sb_record at, si
     const double h = (double)sim->constant.support, quantum = sim->space.quantum;
     const int layers = sim->constant.dimension == 2 ? 0 : 1;
     const uint64_t code = sb_cell_code(at, sim->space.shift);
-    const sb_f4 normal = set->normal[b];
+    const sb_f4 normal = sb_wall_normal(sim, set, b);
     for (int dz = -1; dz <= 1; dz++)
         for (int dy = -layers; dy <= layers; dy++)
             for (int dx = -1; dx <= 1; dx++) {
@@ -35,7 +36,7 @@ static void add_sums(const sb_sim *sim, const sb_wall_set *set, sb_record at, si
                     const double w =
                         sb_kernel_value(sim->scene->numerics.kernel, sim->constant.dimension, h, sqrt(r2) * quantum);
                     s->kernel += w;
-                    if (sb_wall_curvature_includes((double)sb_sum3(normal * set->normal[k])))
+                    if (sb_wall_curvature_includes((double)sb_sum3(normal * sb_wall_normal(sim, set, k))))
                         s->curvature -= w * (double)sb_sum3(normal * d) * quantum / h;
                 }
             }
@@ -86,7 +87,7 @@ int sb_wall_images(sb_wall_set *set, const sb_space *space, uint32_t mark)
     for (size_t i = 0; i < own; i++) all += (size_t)sb_space_images(space, set->record[i], image);
     if (lengthen((void **)&set->record, own, all, sizeof *set->record) != 0 ||
         lengthen((void **)&set->body, own, all, sizeof *set->body) != 0 ||
-        lengthen((void **)&set->normal, own, all, sizeof *set->normal) != 0)
+        lengthen((void **)&set->facing, own, all, sizeof *set->facing) != 0)
         return -1;
     if (set->number && lengthen((void **)&set->number, own, all, sizeof *set->number) != 0) return -1;
     for (size_t i = 0; i < own; i++) {
@@ -95,7 +96,7 @@ int sb_wall_images(sb_wall_set *set, const sb_space *space, uint32_t mark)
             set->record[set->count] = image[k];
             if (set->number) set->number[set->count] = set->number[i] | SB_BOUNDARY_IMAGE;
             set->body[set->count] = set->body[i] | mark;
-            set->normal[set->count++] = set->normal[i];
+            set->facing[set->count++] = set->facing[i];
         }
     }
     return 0;

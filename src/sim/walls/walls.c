@@ -8,6 +8,7 @@
 #include "sim/step/stages.h"
 #include "sim/walls/absorber.h"
 #include "sim/walls/mirrors.h"
+#include "sim/walls/normals.h"
 #include "sim/wcsph/boundary.h"
 
 #include <math.h>
@@ -72,9 +73,9 @@ int sb_walls_table(sb_wall_set *set, const sb_space *space)
     uint64_t *words = sb_alloc_untouched(n, sizeof *words), *other = sb_alloc_untouched(n, sizeof *words);
     sb_record *record = sb_alloc_untouched(n, sizeof *record);
     uint32_t *body = sb_alloc_untouched(n, sizeof *body);
-    sb_f4 *normal = sb_alloc_untouched(n, sizeof *normal);
+    uint32_t *facing = sb_alloc_untouched(n, sizeof *facing);
     int status = -1;
-    if (!words || !other || !record || !body || !normal) goto done;
+    if (!words || !other || !record || !body || !facing) goto done;
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) words[i] = sb_sort_word(sb_space_key(space, set->record[i]), i);
     const uint64_t *sorted = sb_sort(words, other, n, SB_INDEX_BITS, SB_INDEX_BITS + space->key_bits);
@@ -84,11 +85,11 @@ int sb_walls_table(sb_wall_set *set, const sb_space *space)
         size_t from = sb_word_index(sorted[i]);
         record[i] = set->record[from];
         body[i] = set->body[from];
-        normal[i] = set->normal[from];
+        facing[i] = set->facing[from];
     }
     memcpy(set->record, record, n * sizeof *record);
     memcpy(set->body, body, n * sizeof *body);
-    memcpy(set->normal, normal, n * sizeof *normal);
+    memcpy(set->facing, facing, n * sizeof *facing);
     for (size_t i = 0; i < n && set->number; i++) body[i] = set->number[sb_word_index(sorted[i])];
     if (set->number) memcpy(set->number, body, n * sizeof *body);
     status = sb_cells_build(&set->cells, set->record, n, space->shift);
@@ -97,7 +98,7 @@ done:
     sb_free(other);
     sb_free(record);
     sb_free(body);
-    sb_free(normal);
+    sb_free(facing);
     return status;
 }
 
@@ -129,8 +130,8 @@ static int copy_set(sb_sim *sim, bool moving, sb_wall_set *set)
         if ((model->bodies[b].wavemaker >= 0) == moving) set->count += model->bodies[b].count;
     set->record = sb_alloc_untouched(set->count, sizeof *set->record);
     set->body = sb_alloc_untouched(set->count, sizeof *set->body);
-    set->normal = sb_alloc(set->count, sizeof *set->normal);
-    if (!set->record || !set->body || !set->normal) return -1;
+    set->facing = sb_alloc_untouched(set->count, sizeof *set->facing);
+    if (!set->record || !set->body || !set->facing) return -1;
     size_t at = 0;
     for (size_t b = 0; b < model->body_count; b++) {
         const sb_model_body *body = &model->bodies[b];
@@ -139,10 +140,9 @@ static int copy_set(sb_sim *sim, bool moving, sb_wall_set *set)
             sb_record record = sb_space_record(&sim->space, model->wall_position[i]);
             if (!on_grid(&sim->space, record) || !takes(model, i, moving)) continue;
             set->record[at] = record;
-            if (model->wall_normal) {
-                sb_vec3 normal = model->wall_normal[i];
-                set->normal[at] = (sb_f4){(float)normal.x, (float)normal.y, (float)normal.z, 0};
-            }
+            const sb_vec3 normal = model->wall_normal ? model->wall_normal[i] : (sb_vec3){0};
+            const sb_f4 rounded = {(float)normal.x, (float)normal.y, (float)normal.z, 0};
+            if (sb_wall_normals_index(&sim->walls.normals, rounded, &set->facing[at]) != 0) return -1;
             set->body[at++] = (uint32_t)b | (is_marked(model, i, moving) ? SB_WALL_MARK : 0);
         }
     }
@@ -199,15 +199,15 @@ sb_status sb_walls_create(sb_sim *sim, sb_error *error)
     sim->walls.rest.count = set->count;
     sim->walls.rest.record = sb_alloc_untouched(set->count, sizeof *sim->walls.rest.record);
     sim->walls.rest.body = sb_alloc_untouched(set->count, sizeof *sim->walls.rest.body);
-    sim->walls.rest.normal = sb_alloc_untouched(set->count, sizeof *sim->walls.rest.normal);
+    sim->walls.rest.facing = sb_alloc_untouched(set->count, sizeof *sim->walls.rest.facing);
     sim->walls.rest.number = set->number ? sb_alloc_untouched(set->count, sizeof *set->number) : NULL;
     if (set->number && !sim->walls.rest.number) return sb_fail_memory(error, "moving boundary particles");
-    if (!sim->walls.rest.record || !sim->walls.rest.body || !sim->walls.rest.normal)
+    if (!sim->walls.rest.record || !sim->walls.rest.body || !sim->walls.rest.facing)
         return sb_fail_memory(error, "moving boundary particles");
     for (size_t i = 0; i < set->count; i++) {
         sim->walls.rest.record[i] = set->record[i];
         sim->walls.rest.body[i] = set->body[i];
-        sim->walls.rest.normal[i] = set->normal[i];
+        sim->walls.rest.facing[i] = set->facing[i];
         if (set->number) sim->walls.rest.number[i] = set->number[i];
     }
     return SB_OK;
@@ -218,7 +218,7 @@ void sb_walls_destroy(sb_sim *sim)
     for (int s = 0; s < SB_WALL_SETS; s++) {
         sb_free(sim->walls.set[s].record);
         sb_free(sim->walls.set[s].body);
-        sb_free(sim->walls.set[s].normal);
+        sb_free(sim->walls.set[s].facing);
         sb_free(sim->walls.set[s].number);
         sb_free(sim->walls.set[s].near);
         sb_cells_free(&sim->walls.set[s].cells);
@@ -230,10 +230,11 @@ void sb_walls_destroy(sb_sim *sim)
     sb_free(sim->walls.moving);
     sb_free(sim->walls.moving_of_body);
     sb_walls_share_free(&sim->walls.share);
+    sb_wall_normals_free(&sim->walls.normals);
     sb_mirrors_destroy(sim);
     sb_free(sim->walls.rest.record);
     sb_free(sim->walls.rest.body);
-    sb_free(sim->walls.rest.normal);
+    sb_free(sim->walls.rest.facing);
     sb_free(sim->walls.rest.number);
     sb_boundary_destroy(sim);
 }
@@ -256,7 +257,7 @@ static void place(sb_sim *sim)
         if (!sb_space_inside(&sim->space, placed)) continue;
         sb_carry(&placed, sb_carried_value(sim->walls.rest.record[i]));
         set->record[set->count] = placed;
-        set->normal[set->count] = sim->walls.rest.normal[i];
+        set->facing[set->count] = sim->walls.rest.facing[i];
         if (set->number) set->number[set->count] = sim->walls.rest.number[i];
         set->body[set->count++] = sim->walls.rest.body[i];
     }

@@ -77,7 +77,7 @@ sb_status sb_stage_wcsph_rates(sb_sim *sim, sb_error *error)
     } else {
         sim->passes->diverge(sim, sim->state.velocity, 1, sim->work.rate);
 #pragma omp parallel for schedule(static)
-        for (size_t i = 0; i < n; i++) sim->work.rate[i] -= sim->work.wall[i][3];
+        for (size_t i = 0; i < n; i++) sim->work.rate[i] -= sb_wall_flux(sim, i);
     }
     if (!(numerics->density_diffusion > 0)) return SB_OK;
     sb_pressure_load_begin(sim, sim->state.excess);

@@ -1,4 +1,5 @@
 #include "base/memory.h"
+#include "sim/walls/normals.h"
 #include "sim/wcsph/boundary.h"
 
 #include <math.h>
@@ -40,12 +41,12 @@ int sb_boundary_layers(sb_sim *sim, sb_wall_set *set)
     const int shift = sim->space.shift;
     if (twice_as_long((void **)&set->record, first, sizeof *set->record) != 0 ||
         twice_as_long((void **)&set->body, first, sizeof *set->body) != 0 ||
-        twice_as_long((void **)&set->normal, first, sizeof *set->normal) != 0)
+        twice_as_long((void **)&set->facing, first, sizeof *set->facing) != 0)
         return -1;
     set->number = sb_alloc_untouched(2 * first, sizeof *set->number);
     if (!set->number) return -1;
     for (size_t i = 0; i < first; i++) {
-        const sb_f4 n = set->normal[i];
+        const sb_f4 n = sb_wall_normal(sim, set, i);
         const sb_vec3 at = sb_space_position(&sim->space, set->record[i]);
         const sb_vec3 behind = staggered(sim, at, sb_vec((double)n[0], (double)n[1], (double)n[2]));
         const sb_record record = sb_space_wrap(&sim->space, sb_space_record(&sim->space, behind));
@@ -55,7 +56,7 @@ int sb_boundary_layers(sb_sim *sim, sb_wall_set *set)
         if (!on_grid) continue;
         set->record[set->count] = record;
         set->body[set->count] = set->body[i];
-        set->normal[set->count++] = n;
+        set->facing[set->count++] = set->facing[i];
     }
     for (size_t i = 0; i < set->count; i++) set->number[i] = (uint32_t)sim->walls.boundary.count++;
     return 0;

@@ -82,10 +82,10 @@ static void diverge(sb_sim *sim, const sb_f4 *field, float factor, float *out)
     sb_passes_choose()->diverge(sim, field, factor, out);
 }
 
-static void forces(sb_sim *sim, const sb_viscous *viscous, const sb_wall_drag *law)
+static sb_status forces(sb_sim *sim, const sb_viscous *viscous, const sb_wall_drag *law, sb_error *error)
 {
     watch(sim);
-    sb_passes_choose()->forces(sim, viscous, law);
+    return sb_passes_choose()->forces(sim, viscous, law, error);
 }
 
 static void mean_strain(sb_sim *sim)

@@ -159,10 +159,10 @@ static void run(const sb_passes *form, int pass, sb_sim *sim, double *force)
         memcpy(force, sim->work.stress_force, sim->model->body_count * SB_FORCE_VALUES * sizeof *force);
         break;
     case STRAIN_RATE:
-        form->strain_rate(sim);
+        assert_int_equal(form->strain_rate(sim, &error), SB_OK);
         break;
     case FORCES:
-        form->forces(sim, &viscous, &law);
+        assert_int_equal(form->forces(sim, &viscous, &law, &error), SB_OK);
         break;
     case ACCELERATE:
         form->accelerate(sim);
@@ -192,7 +192,8 @@ static void set_input(int pass, sb_sim *sim)
         const float a = (float)sb_random(11, i), b = (float)sb_random(12, i) - 0.5f, c = (float)sb_random(13, i) - 0.5f;
         if (pass == MEAN_STRAIN) w->strain_xx[i] = b, w->strain[i] = (sb_f4){c, a, b, c};
         if (pass == CORRECT) w->stress_xx[i] = b, w->stress[i] = (sb_f4){c, a, b, c};
-        if (pass == FORCES) w->eddy[i] = 0.01f * a, w->wall_drag[i] = (sb_f4){0}; /* set beside walls only */
+        if (pass == FORCES) w->eddy[i] = 0.01f * a, w->wall_drag[i] = (sb_f4){0};    /* set beside walls only */
+        if (pass == FORCES && w->image_push) w->image_push[i] = (sb_f4){a, c, b, 0}; /* its memory becomes wall_drag */
         if (pass == ACCELERATE || pass == VIRIAL || pass == BODIES) w->unknown[i] = 1e-3f * a;
         if (pass == BODIES) w->end_velocity[i] = sim->state.velocity[i] + (sb_f4){b, 0, c, 0};
     }

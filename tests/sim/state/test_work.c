@@ -95,12 +95,12 @@ static void check_bytes(bool particles, size_t most)
 }
 
 /* Walls of boundary particles need at most 100, as before the views were placed by rows. Those that reflect the water
-   need an eighth more. */
+   have no lists and vectors of boundary particles, and need 90. */
 static void the_usual_workspace_is_small(void **state)
 {
     (void)state;
     check_bytes(true, 100);
-    check_bytes(false, 113);
+    check_bytes(false, 90);
 }
 
 /* Names are unique, and each row says its unit. */

@@ -69,8 +69,8 @@ static void compare(basin *b, double time, double dt, double most)
     }
     sim->passes->diverge(sim, sim->work.predicted, (float)sim->space.quantum, divergence);
     for (size_t i = 0; i < n; i++) {
-        rate[sim->state.id[i]] = (double)divergence[i] - dt * (double)sim->work.wall[i][3];
-        flux = fmax(flux, fabs(dt * (double)sim->work.wall[i][3]));
+        rate[sim->state.id[i]] = (double)divergence[i] - dt * (double)sb_wall_flux(sim, i);
+        flux = fmax(flux, fabs(dt * (double)sb_wall_flux(sim, i)));
     }
     printf("  %dD: %zu particles, %zu images, %zu pairs at edges, ", sim->constant.dimension, n,
            sim->groups.images_used, sim->work.edge_pairs.used);

@@ -4,6 +4,7 @@
 #include "child.h"
 #include "program.h"
 #include "sim/walls/mirrors.h"
+#include "sim/walls/normals.h"
 #include "subject.h"
 #include "summary_text.h"
 
@@ -11,6 +12,9 @@
 
 /* TURNS: turns per requested repeat, because the difference is smaller than the spread of a few repeats. */
 enum { DRY_STEPS = 4, TURNS = 3 };
+
+/* A boundary particle: record, body, index of its normal. */
+enum { WALL_BYTES = 24 };
 
 /* Runs the program as a user does, for a few steps. */
 static sb_status whole_program(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
@@ -38,9 +42,9 @@ static void add_arrays(const char *name, const sb_bench_subject *subject, sb_ben
     const sb_sim *sim = subject->sim;
     const sb_model *model = &subject->model;
     const double n = (double)sim->state.n;
-    double walls = 0;
+    double walls = (double)sb_wall_normals_bytes(&sim->walls.normals) + WALL_BYTES * (double)sim->walls.rest.count;
     for (int s = 0; s < SB_WALL_SETS; s++)
-        walls += (double)(sb_cells_bytes(&sim->walls.set[s].cells) + sim->walls.set[s].count * 36 +
+        walls += (double)(sb_cells_bytes(&sim->walls.set[s].cells) + sim->walls.set[s].count * WALL_BYTES +
                           (sim->walls.set[s].near_mask + 1) * 8);
     const struct {
         const char *name;
@@ -59,7 +63,7 @@ static void add_arrays(const char *name, const sb_bench_subject *subject, sb_ben
         {"sums over cells", (double)(sizeof *sim->work.cell_sum * sim->work.cell_sum_capacity)},
         {"fields of particles", (double)(sb_state_bytes(&sim->state) + sim->work.bytes)},
         {"cells", (double)sb_cells_bytes(&sim->cells)},
-        {"boundary particles", walls + 36 * (double)sim->walls.rest.count},
+        {"boundary particles", walls},
         {"model: fluid particles", (model->fluid_position ? 24 * n : 0) + (model->fluid_velocity ? 24 * n : 0) +
                                        (model->fluid_pressure ? 8 * n : 0)},
         {"model: boundary particles", (model->wall_position ? 24 : 0) * (double)model->wall_count +

@@ -17,7 +17,10 @@ sb_status sb_bench_subject_build(const char *assets, const char *name, const sb_
     if (status == SB_OK) status = sb_scene_read(path, NULL, overrides, count, &subject->scene, error);
     if (status == SB_OK) status = sb_model_build(&subject->scene, &subject->model, error);
     if (status == SB_OK) status = sb_sim_create(&subject->scene, &subject->model, NULL, &subject->sim, error);
-    if (status == SB_OK) sb_model_free_start(&subject->model);
+    if (status == SB_OK) {
+        sb_model_free_start(&subject->model);
+        sb_model_free_walls(&subject->model);
+    }
     subject->setup = sb_clock() - start;
     if (status != SB_OK) sb_bench_subject_free(subject);
     return status;

@@ -4,6 +4,7 @@
 #include "sim/passes/cpu/cpu.h"
 #include "sim/passes/cpu/drag.h"
 #include "sim/passes/cpu/reactions.h"
+#include "sim/passes/cpu/wall_finder.h"
 #include "sim/passes/groups.h"
 #include "sim/search/around.h"
 #include "sim/step/ledger.h"
@@ -95,43 +96,41 @@ SB_APART void contact(sb_sim *sim, const sb_group *group, size_t i, forces *to, 
     sim->work.end_velocity[i] = velocity;
 }
 
-/* Whether all boundary particles of a list belong to one body. Always false with periodic sides, where forces on images
-   act elsewhere. */
-static bool one_body(const sb_sim *sim, const uint32_t *index, size_t count)
+/* Whether there are boundary particles around particle i that act on bodies. */
+static bool has_walls(const sb_sim *sim, size_t i, const sb_wall_drag *law)
 {
-    bool same = !sim->space.repeats;
-    const uint32_t first = count > 0 ? sb_wall_body(sim, index[0]) : 0;
-    for (size_t k = 1; k < count && same; k++) same = sb_wall_body(sim, index[k]) == first;
-    return same;
+    if (sim->needs.wall_lists) return sim->work.wall_pairs.count[i] > 0;
+    return law && sim->work.wall_body[i] != SB_WALL_NONE;
 }
 
 /* Adds the forces of particle i's pressure and drag on bodies. Returns the sum of sb_wall_drag_four; law: NULL without
    drag. */
-SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, forces *to)
+SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, sb_wall_finder *finder, forces *to)
 {
-    const uint32_t *index = sim->work.wall_pairs.index + sim->work.wall_pairs.first[i];
-    const float *slope = sim->work.wall_pairs.slope + sim->work.wall_pairs.first[i];
-    const size_t count = sim->work.wall_pairs.count[i];
     const double mass = (double)sim->constant.mass;
     const sb_f4 *velocity = sim->state.velocity; /* at the step's start */
-    tally t = {
-        .sim = sim, .to = to, .press = sim->needs.images ? 0 : mass * (double)sim->work.unknown[i], .mass = mass};
+    const bool lists = sim->needs.wall_lists;
+    tally t = {.sim = sim, .to = to, .press = lists ? mass * (double)sim->work.unknown[i] : 0, .mass = mass};
     sb_f4 drag = {0}, part[4];
     t.at = sb_space_position(&sim->space, sim->state.position[i]);
-    if (count > 0) t.body = sb_wall_body(sim, index[0]);
-    if (one_body(sim, index, count)) { /* the usual case: the sums exist already */
-        t.pushed = sim->work.wall[i];
+    sb_wall_list walls = {.count = 0};
+    if (lists) walls = sb_wall_list_of(sim, finder, i);
+    t.body = lists ? sb_wall_list_body(sim, walls) : sim->work.wall_body[i];
+    if (t.body != SB_WALL_SEVERAL) { /* the usual case: the sums exist already */
+        t.pushed = sb_wall_vector(sim, i);
         drag = t.drag = law ? sim->work.wall_drag[i] : (sb_f4){0};
         flush(&t);
         return drag;
     }
-    for (size_t k = 0; k < count; k++) {
-        if (law && k % 4 == 0) sb_wall_drag_four(sim, i, velocity[i], index + k, slope + k, law, part);
-        if (slope[k] == 0) continue;
-        const sb_wall_set *set = sb_wall_set_of(sim, index[k]);
-        const uint32_t wall = sb_wall_particle(index[k]);
+    if (!lists) walls = sb_wall_list_of(sim, finder, i);
+    t.body = sb_wall_body(sim, walls.index[0]);
+    for (size_t k = 0; k < walls.count; k++) {
+        if (law && k % 4 == 0) sb_wall_drag_four(sim, i, velocity[i], walls.index + k, walls.slope + k, law, part);
+        if (walls.slope[k] == 0) continue;
+        const sb_wall_set *set = sb_wall_set_of(sim, walls.index[k]);
+        const uint32_t wall = sb_wall_particle(walls.index[k]);
         turn_to(&t, set, wall);
-        t.pushed += sb_offset(sim->state.position[i], set->record[wall]) * sb_splat(slope[k]);
+        t.pushed += sb_offset(sim->state.position[i], set->record[wall]) * sb_splat(walls.slope[k]);
         if (law) {
             drag += part[k % 4];
             t.drag += part[k % 4];
@@ -141,29 +140,34 @@ SB_INLINE sb_f4 react(const sb_sim *sim, size_t i, const sb_wall_drag *law, forc
     return drag;
 }
 
-/* Adds forces (N) and moments (N m) of one group on bodies, and the works of friction and contact. */
+/* Adds forces (N) and moments (N m) of one group on bodies, and the works of friction and contact. law: NULL without
+   drag. */
 SB_MULTIVERSION
-static void do_group(sb_sim *sim, const sb_group *group, const sb_wall_drag *law, forces *to)
+static void do_group(sb_sim *sim, const sb_group *group, const sb_wall_drag *law, const sb_wall_search *search,
+                     forces *to)
 {
     double works[WORKS] = {0};
     const uint32_t records = sb_around_count(sim, group);
     sb_pull pulls[SB_AROUND_MAX];
+    sb_wall_finder finder;
     const bool recorded = !sim->needs.images && sb_pushes_near(sim, group);
     sb_reactions reactions = {0};
     bool beside_wall = false;
+    sb_wall_finder_begin(&finder, search);
     sb_pulls_find(sim, group, pulls);
     for (size_t i = group->first; i < group->end; i++) {
         const bool reflects = sim->needs.images && (sim->work.pairs.count[i] > sim->work.pairs.direct[i] ||
                                                     sim->work.edge_pairs.count[i] > 0);
         const bool meets = sb_contact_possible(sim, group, i);
-        if (sim->work.wall_pairs.count[i] == 0 && !reflects && !meets) continue;
+        const bool walls = has_walls(sim, i, law);
+        if (!walls && !reflects && !meets) continue;
         beside_wall = true;
         if (reflects) sb_react_images(sim, group, records, pulls, i, &reactions, &to->on);
         if (meets) contact(sim, group, i, to, works);
-        if (sim->work.wall_pairs.count[i] == 0) continue;
-        const sb_f4 drag = react(sim, i, law->on ? law : NULL, to);
+        if (!walls) continue;
+        const sb_f4 drag = react(sim, i, law, &finder, to);
         if (recorded) record_pairs(sim, i);
-        if (law->on) works[0] += sb_ledger_work((sb_f4){0}, drag, sb_ledger_start(sim, i), sim->work.end_velocity[i]);
+        if (law) works[0] += sb_ledger_work((sb_f4){0}, drag, sb_ledger_start(sim, i), sim->work.end_velocity[i]);
     }
     if (!beside_wall) return;
     for (int k = 0; k < WORKS; k++) sb_exact_add(&to->works[k], works[k]);
@@ -174,6 +178,7 @@ static void do_group(sb_sim *sim, const sb_group *group, const sb_wall_drag *law
 static bool sum_forces(sb_sim *sim, const sb_wall_drag *law, forces *total)
 {
     const size_t groups = sim->groups.count, bodies = sim->model->body_count;
+    const sb_wall_search search = sb_wall_search_of(sim);
     bool enough = true;
 #pragma omp parallel reduction(&& : enough)
     {
@@ -181,7 +186,7 @@ static bool sum_forces(sb_sim *sim, const sb_wall_drag *law, forces *total)
         enough = sb_body_forces_create(&own.on, bodies) == 0;
 #pragma omp for schedule(dynamic, SB_GROUPS_AT_A_TIME)
         for (size_t g = 0; g < groups; g++)
-            if (enough) do_group(sim, &sim->groups.group[g], law, &own);
+            if (enough) do_group(sim, &sim->groups.group[g], law->on ? law : NULL, &search, &own);
         if (enough) {
             sb_sums_merge(total->on.all, own.on.all, bodies * SB_FORCE_VALUES);
             sb_sums_merge(total->works, own.works, WORKS);

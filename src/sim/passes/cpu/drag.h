@@ -5,6 +5,7 @@
 
 #include "sim/walls/drag.h"
 #include "sim/walls/entry.h"
+#include "sim/walls/normals.h"
 
 /* Shear stress of a smooth wall over rho u^2, with u the speed along the wall at the distance y, as a function of
    reynolds = u y/nu: the law of the laminar sublayer below 139, and above it the power law of turbulent flow
@@ -32,7 +33,7 @@ SB_INLINE sb_wall_four sb_gather_walls(const sb_sim *sim, size_t i, sb_f4 veloci
         const sb_wall_set *set = sb_wall_set_of(sim, wall[k]);
         const uint32_t b = sb_wall_particle(wall[k]);
         d[k] = sb_offset(sim->state.position[i], set->record[b]);
-        n[k] = set->normal[b];
+        n[k] = sb_wall_normal(sim, set, b);
         v[k] = velocity - sb_wall_velocity(sim, wall[k]);
     }
     return (sb_wall_four){sb_transpose(d[0], d[1], d[2], d[3]), sb_transpose(n[0], n[1], n[2], n[3]),

@@ -3,6 +3,7 @@
 #include "sim/passes/cpu/search_parts.h"
 
 #include <math.h>
+#include <string.h>
 
 /* A particle's own image at less than one spacing repels it by REPULSION/2 W(0) (1 - r/spacing)^2 besides the kernel,
    whose slope vanishes at r = 0. Else a particle may pair with its own image (docs/method.md). */
@@ -19,6 +20,12 @@ static uint32_t entry_of(const sb_vicinity *v, uint32_t candidate)
     return v->run[run].begin + candidate - before;
 }
 
+static void set_edge(sb_edge_pair *e, sb_f4 own, sb_f4 other)
+{
+    memcpy(e->own, &own, sizeof e->own);
+    memcpy(e->other, &other, sizeof e->other);
+}
+
 /* Adds a pair at an edge: vectors in kg/m^4. Pairs with the same particle by facets of the same body are one: where
    facets bend little they nearly cancel. */
 static void add_edge(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, uint32_t self, uint32_t source,
@@ -29,8 +36,8 @@ static void add_edge(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, 
     size_t *slot = source == self ? &w->edge_own : &w->edge_of[w->hit_of[source]];
     if (*slot >= w->edges && *slot < lists->edges && lists->edge[*slot].entry == source &&
         sb_mirror_body(sim, lists->edge[*slot].mirror) == sb_mirror_body(sim, f->mirror)) {
-        lists->edge[*slot].own += own;
-        lists->edge[*slot].other += other;
+        sb_edge_pair *e = &lists->edge[*slot];
+        set_edge(e, sb_edge_own(e) + own, sb_edge_other(e) + other);
         return;
     }
     if (sb_grow((void **)&lists->edge, &lists->capacity_edge, lists->edges + 1, sizeof *lists->edge) != 0) {
@@ -38,7 +45,8 @@ static void add_edge(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, 
         return;
     }
     *slot = lists->edges;
-    lists->edge[lists->edges++] = (sb_edge_pair){own, other, source, f->mirror};
+    lists->edge[lists->edges] = (sb_edge_pair){.entry = source, .mirror = f->mirror};
+    set_edge(&lists->edge[lists->edges++], own, other);
 }
 
 /* Forgets the pairs at edges of the last particle. */
@@ -55,13 +63,14 @@ static void close_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *list
     size_t kept = w->edges;
     for (size_t k = w->edges; k < lists->edges; k++) {
         sb_edge_pair e = lists->edge[k];
-        if (sb_sum3(e.own * e.own) + sb_sum3(e.other * e.other) < least * least) continue;
-        r->gradient += e.own;
+        const sb_f4 own = sb_edge_own(&e), other = sb_edge_other(&e);
+        if (sb_sum3(own * own) + sb_sum3(other * other) < least * least) continue;
+        r->gradient += own;
         const uint32_t hit = w->hit_of[e.entry];
         if (e.entry == self)
-            r->doubled += e.other;
+            r->doubled += other;
         else
-            sb_add_force(w, hit, e.other);
+            sb_add_force(w, hit, other);
         e.entry = entry_of(&w->vicinity, e.entry);
         lists->edge[kept++] = e;
     }

@@ -1,6 +1,7 @@
 #include "sim/passes/cpu/cpu.h"
 #include "sim/passes/cpu/drag.h"
 #include "sim/passes/cpu/eights.h"
+#include "sim/passes/cpu/wall_finder.h"
 #include "sim/passes/groups.h"
 #include "sim/step/settle.h"
 
@@ -8,6 +9,8 @@
 typedef struct all_terms {
     const sb_viscous *viscous;
     const sb_wall_drag *law;
+    const sb_wall_search *search;
+    unsigned *full; /* limits that a finder of walls exceeded */
 } all_terms;
 
 /* The values of a particle itself in its pairs, repeated in all lanes. */
@@ -65,16 +68,23 @@ SB_INLINE sb_f4 fluid_part(const sb_sim *sim, const sb_group *group, const sb_f4
     return (sum.x + sum.y + sum.z + sum.w) * sb_splat(sim->work.pairs.unit * f->inverse_quantum);
 }
 
-SB_INLINE sb_f4 wall_part(const sb_sim *sim, size_t i, const sb_wall_drag *law)
+SB_INLINE sb_f4 wall_part(const sb_sim *sim, size_t i, sb_wall_list walls, const sb_wall_drag *law)
 {
-    const uint32_t *index = sim->work.wall_pairs.index + sim->work.wall_pairs.first[i];
-    const float *slope = sim->work.wall_pairs.slope + sim->work.wall_pairs.first[i];
     sb_f4 sum = {0}, part[4];
-    for (size_t k = 0; k < sim->work.wall_pairs.count[i]; k += 4) {
-        sb_wall_drag_four(sim, i, sim->state.velocity[i], index + k, slope + k, law, part);
+    for (size_t k = 0; k < walls.count; k += 4) {
+        sb_wall_drag_four(sim, i, sim->state.velocity[i], walls.index + k, walls.slope + k, law, part);
         for (int pair = 0; pair < 4; pair++) sum += part[pair];
     }
     return sum;
+}
+
+/* The drag of walls on particle i, which is kept for the forces on bodies. */
+SB_INLINE sb_f4 drag_part(const sb_sim *sim, size_t i, sb_wall_finder *finder, const sb_wall_drag *law)
+{
+    const sb_wall_list walls = sb_wall_list_of(sim, finder, i);
+    if (sim->work.wall_body) sim->work.wall_body[i] = sb_wall_list_body(sim, walls);
+    if (walls.count == 0) return (sb_f4){0};
+    return sim->work.wall_drag[i] = wall_part(sim, i, walls, law);
 }
 
 SB_MULTIVERSION
@@ -87,6 +97,8 @@ static void do_group(sb_sim *sim, const sb_group *group, const void *arguments)
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     const float dt = (float)sim->state.time_step;
     sb_f4 *next = sim->work.predicted;
+    sb_wall_finder finder;
+    sb_wall_finder_begin(&finder, terms->search);
     if (viscous) sb_around_with(sim, group, sim->state.velocity, around);
     if (sim->work.eddy) sb_around_last(sim, group, sim->work.eddy, around);
     for (size_t i = group->first; i < group->end; i++) {
@@ -96,15 +108,21 @@ static void do_group(sb_sim *sim, const sb_group *group, const void *arguments)
             a += fluid_part(sim, group, around, i, f, true);
         else if (viscous)
             a += fluid_part(sim, group, around, i, f, false);
-        if (law->on && sim->work.wall_pairs.count[i] > 0) a += sim->work.wall_drag[i] = wall_part(sim, i, law);
-        if (sim->work.image_push) a += sim->work.image_push[i];
+        const sb_f4 push =
+            sim->work.image_push ? sim->work.image_push[i] : (sb_f4){0}; /* its memory becomes wall_drag */
+        if (law->on) a += drag_part(sim, i, &finder, law);
+        if (sim->work.image_push) a += push;
         a[3] = 0;
         next[i] = sim->state.velocity[i] + a * sb_splat(dt);
     }
+    if (finder.full) __atomic_fetch_or(terms->full, finder.full, __ATOMIC_RELAXED);
 }
 
-void sb_cpu_forces(sb_sim *sim, const sb_viscous *viscous, const sb_wall_drag *law)
+sb_status sb_cpu_forces(sb_sim *sim, const sb_viscous *viscous, const sb_wall_drag *law, sb_error *error)
 {
-    const all_terms terms = {viscous, law};
+    unsigned full = 0;
+    const sb_wall_search search = sb_wall_search_of(sim);
+    const all_terms terms = {viscous, law, &search, &full};
     sb_each_group(sim, do_group, &terms);
+    return sb_wall_finder_refuse(sim, full, error);
 }

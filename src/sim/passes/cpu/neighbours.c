@@ -52,7 +52,7 @@ static bool publish(sb_sim *sim, sb_list_builder *lists, size_t begin, size_t en
         groups->group[g].plane += (uint32_t)plane;
         for (size_t i = groups->group[g].first; i < groups->group[g].end; i++) {
             sim->work.pairs.first[i] += (uint32_t)four;
-            sim->work.wall_pairs.first[i] += (uint32_t)wall;
+            if (sim->needs.wall_lists) sim->work.wall_pairs.first[i] += (uint32_t)wall;
             if (sim->needs.images) sim->work.edge_pairs.first[i] += (uint32_t)edge;
         }
     }
@@ -221,11 +221,7 @@ static sb_status refuse(const sb_sim *sim, unsigned full, sb_error *error)
 {
     static const char *const dense = "the water has collapsed, or the boundary particles are too dense";
     const unsigned long long step = (unsigned long long)sim->state.step;
-    if (full & SB_FULL_WALLS)
-        return sb_fail(error, SB_FAILED,
-                       "step %llu: more than %d boundary particles within one cell and its neighbour cells: walls are "
-                       "too dense, or too many bodies meet there",
-                       step, SB_WALLS_AROUND_MAX);
+    if (full & SB_FULL_WALLS) return sb_wall_finder_refuse(sim, full, error);
     if (full & SB_FULL_FACETS)
         return sb_fail(error, SB_FAILED,
                        "step %llu: too many facets of walls within %g m of one particle: expected fewer than %d facets "

@@ -45,7 +45,7 @@ static void accelerate_group(sb_sim *sim, const sb_group *group, const void *arg
             even += (self - a) * ((q + sb_carried8(a)) * two_slopes(four->slope));
             odd += (self - b) * ((q + sb_carried8(b)) * two_slopes(four->slope + 2));
         }
-        const sb_f4 sum = fold(even + odd) * sb_splat(sim->work.pairs.unit) + sb_splat(own[3]) * sim->work.wall[i];
+        const sb_f4 sum = fold(even + odd) * sb_splat(sim->work.pairs.unit) + sb_splat(own[3]) * sb_wall_vector(sim, i);
         sim->work.acceleration[i] = (sb_f4){-sum[0], -sum[1], -sum[2], 0};
         if (reflects && sim->work.edge_pairs.count[i] > 0) sim->work.acceleration[i] -= sb_edges_push(sim, i, own[3]);
     }
@@ -73,7 +73,8 @@ static void diverge_group(sb_sim *sim, const sb_group *group, const void *argume
             even += sb_lower(a, b) * (sb_upper(a, b) * two_slopes(four->slope));
             odd += sb_lower(c, d) * (sb_upper(c, d) * two_slopes(four->slope + 2));
         }
-        out[i] = factor * sb_sum3(fold(even + odd) * sb_splat(sim->work.pairs.unit) + field[i] * sim->work.wall[i]);
+        out[i] =
+            factor * sb_sum3(fold(even + odd) * sb_splat(sim->work.pairs.unit) + field[i] * sb_wall_vector(sim, i));
         if (reflects && sim->work.edge_pairs.count[i] > 0) out[i] += factor * sb_edges_flow(sim, i, field);
     }
 }

@@ -5,18 +5,7 @@
 #include "sim/passes/cpu/images.h"
 #include "sim/passes/cpu/kernel_batch.h"
 #include "sim/passes/cpu/searcher.h"
-
-_Static_assert((int)SB_WALLS_AROUND_MAX <= (int)SB_CANDIDATES_MAX, "capacity of the search for hits");
-
-/* Boundary particles around one cell as offsets from the cell's corner, in quanta. */
-typedef struct sb_surroundings {
-    size_t count;
-    float x[SB_WALLS_AROUND_MAX + SB_HIT_SPARE], y[SB_WALLS_AROUND_MAX + SB_HIT_SPARE],
-        z[SB_WALLS_AROUND_MAX + SB_HIT_SPARE];
-    sb_f4 place[SB_WALLS_AROUND_MAX];
-    float weight[SB_WALLS_AROUND_MAX];
-    uint32_t index[SB_WALLS_AROUND_MAX];
-} sb_surroundings;
+#include "sim/passes/cpu/wall_finder.h"
 
 /* The present particle's image by one reflection at a facet, and sums over its hits of such images: of the slopes times
    the originals' distances before the facet, and times their squares. */
@@ -27,7 +16,6 @@ typedef struct sb_own_image {
 
 typedef struct sb_searcher {
     sb_vicinity vicinity;
-    sb_surroundings wall;
     sb_hits hits, reflected;
     sb_images_around images;
     /* On each hit, by the pressure of the present particle; aligned like the hits. */
@@ -47,6 +35,8 @@ typedef struct sb_searcher {
     float slope_scale; /* alpha quantum / h^(d+2): W'/r per quantum */
     float to_units;    /* a slope of the kernel in stored units */
     unsigned full;     /* limits that this group exceeded */
+    sb_wall_search wall_search;
+    sb_wall_finder walls;
 } sb_searcher;
 
 /* What images add to the sums of particle i. */

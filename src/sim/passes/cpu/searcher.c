@@ -1,56 +1,9 @@
 #include "sim/passes/cpu/search_parts.h"
-#include "sim/walls/walls.h"
 
 #include "base/memory.h"
 #include "sim/walls/entry.h"
 
 #include <math.h>
-
-/* ---- walls around a cell ---- */
-
-SB_INLINE void gather_cell(sb_surroundings *s, const sb_record *record, uint32_t begin, uint32_t end, sb_record corner,
-                           uint32_t base)
-{
-    if (s->count + (end - begin) > SB_WALLS_AROUND_MAX) {
-        s->count = SB_WALLS_AROUND_MAX + 1;
-        return;
-    }
-    for (uint32_t k = begin; k < end; k++) {
-        sb_f4 d = sb_offset(record[k], corner);
-        s->x[s->count] = d[0];
-        s->y[s->count] = d[1];
-        s->z[s->count] = d[2];
-        s->place[s->count] = d;
-        s->weight[s->count] = sb_carried_value(record[k]);
-        s->index[s->count++] = base + k;
-    }
-}
-
-/* Gathers the boundary particles in the 27 (2D: 9) cells around that of particle i, in a fixed order. */
-SB_APART void gather_walls(const sb_sim *sim, sb_searcher *w, size_t i, sb_record corner)
-{
-    const int layers = sim->constant.dimension == 2 ? 0 : 1;
-    const uint64_t code = sb_cell_code(sim->state.position[i], sim->space.shift);
-    w->wall.count = 0;
-    for (uint32_t s = 0; s < SB_WALL_SETS; s++) {
-        const sb_wall_set *set = &sim->walls.set[s];
-        if (!sb_walls_near(set, &sim->space, sim->state.position[i])) continue;
-        for (int dz = -1; dz <= 1; dz++)
-            for (int dy = -layers; dy <= layers; dy++)
-                for (int dx = -1; dx <= 1; dx++) {
-                    int64_t cell = sb_cells_find(&set->cells, code + sb_cell_step(dx, dy, dz));
-                    if (cell >= 0 && w->wall.count <= SB_WALLS_AROUND_MAX)
-                        gather_cell(&w->wall, set->record, set->cells.begin[cell], set->cells.begin[cell + 1], corner,
-                                    sb_wall_entry(s, 0));
-                }
-    }
-    if (w->wall.count > SB_WALLS_AROUND_MAX) {
-        w->full |= SB_FULL_WALLS;
-        w->wall.count = 0;
-    }
-}
-
-/* ---- one particle ---- */
 
 SB_MULTIVERSION
 void sb_round_slopes(float *restrict slope, float *restrict root, size_t count, float to_units)
@@ -85,20 +38,15 @@ SB_INLINE void fluid_sums(sb_searcher *w, float mass, float unit, float *density
 
 /* Sums over the boundary particles around one particle: part of the density, and B_i = sum_b psi_b grad W_ib with the
    flux sum_b psi_b v_b . grad W_ib of moving walls in the last lane. */
-SB_INLINE void wall_sums(const sb_sim *sim, sb_searcher *w, float *density, sb_f4 *wall)
+SB_INLINE void wall_sums(const sb_sim *sim, const sb_searcher *w, const sb_hits *h, float *density, sb_f4 *wall)
 {
-    sb_hits *h = &w->hits;
     float value = 0;
     sb_f4 sum = {0};
-    w->batch(w->kernel, h->q2, h->count, h->value, h->slope);
     for (size_t k = 0; k < h->count; k++) {
-        const uint32_t index = w->wall.index[h->candidate[k]];
-        const float weight = w->wall.weight[h->candidate[k]];
-        const float slope = h->slope[k] * weight * w->slope_scale;
+        const uint32_t index = h->candidate[k];
+        const float slope = h->slope[k];
         sb_f4 gradient = {slope * h->x[k], slope * h->y[k], slope * h->z[k], 0};
-        h->slope[k] = slope;
-        h->candidate[k] = index;
-        value += weight * h->value[k];
+        value += h->root[k] * h->value[k];
         if (sb_wall_moves(index)) gradient[3] = sb_sum3(sb_wall_velocity(sim, index) * gradient);
         sum += gradient;
     }
@@ -106,30 +54,19 @@ SB_INLINE void wall_sums(const sb_sim *sim, sb_searcher *w, float *density, sb_f
     *wall = sum;
 }
 
-/* Boundary particles around particle i: their part of the density, and B_i; with images only their lists. */
-SB_INLINE void add_walls(sb_sim *sim, sb_searcher *w, sb_list_builder *lists, size_t i, sb_record cell, float *density,
-                         sb_f4 *wall)
+/* Boundary particles around particle i: their list, their part of the density, and B_i. */
+SB_INLINE void add_walls(sb_sim *sim, sb_searcher *w, sb_list_builder *lists, size_t i, float *density, sb_f4 *wall)
 {
+    const sb_hits *h = sb_wall_finder_find(sim, &w->walls, i);
     sim->work.wall_pairs.count[i] = 0;
-    if (w->wall.count == 0) return;
-    const sb_candidate_range all = {0, (uint32_t)w->wall.count};
-    sb_search_hits(w, &w->hits, &(sb_candidates){w->wall.x, w->wall.y, w->wall.z, w->wall.place}, &all, 1,
-                   sb_offset(sim->state.position[i], cell), UINT32_MAX, UINT32_MAX);
-    if (w->hits.count >= SB_LIST_MAX) w->full |= SB_FULL_LIST;
-    if (w->hits.count == 0) return;
-    const float without = *density;
-    const sb_f4 by_images = *wall;
-    wall_sums(sim, w, density, wall);
-    sb_list_walls(lists, &w->hits, sim, i);
-    if (!sim->needs.images) return;
-    *density = without;
-    *wall = by_images;
+    if (h->count == 0) return;
+    wall_sums(sim, w, h, density, wall);
+    sb_list_walls(lists, h, sim, i);
 }
 
-/* Searches the neighbours of particle i and fills in its fields. candidate: its index in the vicinity; cell: the corner
-   of its cell. */
+/* Searches the neighbours of particle i and fills in its fields. candidate: its index in the vicinity. */
 SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists, const sb_group *group, size_t i,
-                            uint32_t candidate, sb_record cell)
+                            uint32_t candidate)
 {
     const sb_constants *c = &sim->constant;
     const sb_vicinity *v = &w->vicinity;
@@ -166,12 +103,15 @@ SB_INLINE void one_particle(sb_sim *sim, sb_searcher *w, sb_list_builder *lists,
     /* It shows the surface. The repulsion from a wall is no surface: a film on a floor would count as full water. */
     const sb_f4 slope = sum - by_images.repulsion;
     if (sim->work.water_squared) sim->work.water_squared[i] = sb_sum3(slope * slope);
-    add_walls(sim, w, lists, i, cell, &density, &wall);
+    if (sim->needs.wall_lists) add_walls(sim, w, lists, i, &density, &wall);
     float diagonal = squares;
     const sb_f4 all = sum + doubled + wall;
     for (int axis = 0; axis < 3; axis++) diagonal += all[axis] * all[axis];
     sim->work.density[i] = density;
-    sim->work.wall[i] = wall;
+    if (sim->work.wall)
+        sim->work.wall[i] = wall;
+    else
+        sim->work.flux[i] = wall[3];
     sim->work.diagonal[i] = diagonal > 1e-6f * c->full_diagonal ? diagonal : 0;
 }
 
@@ -181,17 +121,11 @@ static void search_group(sb_sim *sim, sb_searcher *w, sb_list_builder *lists, sb
     const int shift = sim->space.shift;
     uint64_t last = UINT64_MAX;
     uint32_t candidate = 0;
-    sb_record cell = {0};
     for (size_t i = group->first; i < group->end; i++) {
         const uint64_t code = sb_cell_code(sim->state.position[i], shift);
-        if (code != last) {
-            const sb_record here = sim->state.position[i];
-            cell = (sb_record){here[0] >> shift << shift, here[1] >> shift << shift, here[2] >> shift << shift, 0};
-            candidate = sb_vicinity_candidate(sim, &w->vicinity, i);
-            gather_walls(sim, w, i, cell);
-        }
+        if (code != last) candidate = sb_vicinity_candidate(sim, &w->vicinity, i);
         last = code;
-        one_particle(sim, w, lists, group, i, candidate++, cell);
+        one_particle(sim, w, lists, group, i, candidate++);
     }
 }
 
@@ -199,6 +133,7 @@ unsigned sb_search_group(sb_sim *sim, void *of, sb_list_builder *lists, sb_group
 {
     sb_searcher *w = of;
     w->full = 0;
+    sb_wall_finder_begin(&w->walls, &w->wall_search);
     sb_vicinity_gather(sim, group, &w->vicinity);
     if (w->vicinity.count > SB_AROUND_MAX) return SB_FULL_AROUND;
     if (sim->needs.images && !sb_images_gather(sim, group, &w->vicinity, &w->images))
@@ -206,14 +141,7 @@ unsigned sb_search_group(sb_sim *sim, void *of, sb_list_builder *lists, sb_group
     sb_list_runs(lists, &w->vicinity, group);
     search_group(sim, w, lists, group);
     sb_list_images(lists, &w->vicinity, sim->needs.images ? &w->images : NULL, group);
-    return w->full;
-}
-
-static float slope_scale(const sb_sim *sim)
-{
-    const int d = sim->constant.dimension;
-    return (float)(sim->scene->numerics.kernel->alpha[d] * sim->space.quantum /
-                   pow((double)sim->constant.support, d + 2));
+    return w->full | w->walls.full;
 }
 
 float sb_lists_unit(const sb_sim *sim)
@@ -222,7 +150,8 @@ float sb_lists_unit(const sb_sim *sim)
     const float coincident = 0;
     float value, steepest;
     sb_kernel_batch_for(kernel)(kernel, &coincident, 1, &value, &steepest);
-    return sim->constant.mass * slope_scale(sim) * steepest / ((float)SB_ROOT_MAX * (float)SB_ROOT_MAX);
+    return sim->constant.mass * sb_wall_search_of(sim).slope_scale * steepest /
+           ((float)SB_ROOT_MAX * (float)SB_ROOT_MAX);
 }
 
 void *sb_searcher_create(const sb_sim *sim)
@@ -231,13 +160,14 @@ void *sb_searcher_create(const sb_sim *sim)
     if (!w) return NULL;
     const sb_kernel *kernel = sim->scene->numerics.kernel;
     const int d = sim->constant.dimension;
-    const double h = (double)sim->constant.support, quantum = sim->space.quantum;
+    const double h = (double)sim->constant.support;
+    w->wall_search = sb_wall_search_of(sim);
     w->kernel = kernel;
-    w->batch = sb_kernel_batch_for(kernel);
-    w->find_hits = sb_find_hits_choose();
-    w->q_scale = (float)(quantum / h * (quantum / h));
+    w->batch = w->wall_search.batch;
+    w->find_hits = w->wall_search.find_hits;
+    w->q_scale = w->wall_search.q_scale;
     w->value_scale = (float)(kernel->alpha[d] / pow(h, d));
-    w->slope_scale = slope_scale(sim);
+    w->slope_scale = w->wall_search.slope_scale;
     w->to_units = sim->constant.mass * w->slope_scale / sim->work.pairs.unit;
     return w;
 }

@@ -4,13 +4,11 @@
 #define SB_SIM_SEARCHER_H
 
 #include "sim/passes/cpu/lists.h"
+#include "sim/passes/cpu/wall_finder.h"
 
-enum { SB_WALLS_AROUND_MAX = 4096 }; /* boundary particles in and beside one cell */
-
-/* Limits that were exceeded: neighbours of a particle, boundary particles around a cell, records around a group, facets
-   or images of walls around a group. SB_CROWDED beside SB_FULL_FACETS: nothing was appended yet, and a part of the
-   group may have few enough. */
-enum { SB_FULL_LIST = 1, SB_FULL_WALLS = 2, SB_FULL_AROUND = 4, SB_FULL_FACETS = 8, SB_CROWDED = 16 };
+/* Limits that were exceeded, besides those of a wall finder: records around a group, facets or images of walls around a
+   group. SB_CROWDED beside SB_FULL_FACETS: nothing was appended yet, and a part of the group may have few enough. */
+enum { SB_FULL_AROUND = 4, SB_FULL_FACETS = 8, SB_CROWDED = 16 };
 
 /* A form of the search. */
 typedef struct sb_search_form {

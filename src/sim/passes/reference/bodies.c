@@ -93,7 +93,7 @@ static void react_images(const sb_sim *sim, const sb_indices *around, size_t i, 
         const sb_edge_pair *e = sb_edge_at(sim, i, k);
         const double q = own + unknown_of(sim, e->entry);
         act_on(sim, sb_mirror_body(sim, e->mirror), sb_add(at, sb_mirror_shift(sim, e->mirror)),
-               sb_scale(sb_vector_of(e->own), (double)sim->constant.mass * q), (sb_vec3){0}, force);
+               sb_scale(sb_vector_of(sb_edge_own(e)), (double)sim->constant.mass * q), (sb_vec3){0}, force);
     }
 }
 
@@ -124,11 +124,12 @@ static void react(sb_sim *sim, size_t i, const sb_wall_drag *law, sb_body_sums *
 {
     const double mass = (double)sim->constant.mass, q = sim->needs.images ? 0 : (double)sim->work.unknown[i];
     sb_vec3 drag = {0};
-    for (size_t k = 0; k < sim->work.wall_pairs.count[i]; k++) {
-        const sb_one_wall wall = sb_wall_at(sim, i, k);
-        const sb_vec3 own = law->on ? sb_plain_drag(sim, i, &wall, law) : (sb_vec3){0};
+    sb_one_wall walls[SB_PLAIN_WALLS_MAX];
+    const size_t count = sb_plain_walls(sim, i, walls);
+    for (const sb_one_wall *wall = walls; wall < walls + count; wall++) {
+        const sb_vec3 own = law->on ? sb_plain_drag(sim, i, wall, law) : (sb_vec3){0};
         drag = sb_add(drag, own);
-        act(sim, i, wall.entry, sb_scale(wall.offset, mass * q * wall.slope), sb_scale(own, -mass), total->force);
+        act(sim, i, wall->entry, sb_scale(wall->offset, mass * q * wall->slope), sb_scale(own, -mass), total->force);
     }
     const sb_vec3 both = sb_add(sb_vector_of(sb_ledger_start(sim, i)), sb_vector_of(sim->work.end_velocity[i]));
     if (law->on) total->friction += 0.5 * sb_dot(drag, both);

@@ -10,12 +10,13 @@
 static double wall_distance(const sb_sim *sim, size_t i)
 {
     double nearest = (double)INFINITY, distance = (double)INFINITY;
-    for (size_t k = 0; k < sim->work.wall_pairs.count[i]; k++) {
-        const sb_one_wall wall = sb_wall_at(sim, i, k);
-        const double square = sb_dot(wall.offset, wall.offset);
+    sb_one_wall walls[SB_PLAIN_WALLS_MAX];
+    const size_t count = sb_plain_walls(sim, i, walls);
+    for (const sb_one_wall *wall = walls; wall < walls + count; wall++) {
+        const double square = sb_dot(wall->offset, wall->offset);
         if (square >= nearest) continue;
         nearest = square;
-        distance = sb_norm(wall.normal) > 0 ? fabs(sb_dot(wall.offset, wall.normal)) : sqrt(square);
+        distance = sb_norm(wall->normal) > 0 ? fabs(sb_dot(wall->offset, wall->normal)) : sqrt(square);
     }
     return fmax(distance * sim->space.quantum - sim->scene->numerics.wall_offset * (double)sim->constant.spacing, 0);
 }
@@ -80,9 +81,11 @@ static void eddy_group(sb_sim *sim, const sb_group *group, const void *arguments
     }
 }
 
-void sb_plain_strain_rate(sb_sim *sim)
+sb_status sb_plain_strain_rate(sb_sim *sim, sb_error *error)
 {
+    (void)error;
     sb_each_group(sim, eddy_group, NULL);
+    return SB_OK;
 }
 
 /* Shear stress of a smooth wall over rho u^2 [Werner & Wengle 1991]. */
@@ -126,6 +129,16 @@ static sb_vec3 viscous_part(const sb_sim *sim, const sb_indices *around, size_t 
     return sum;
 }
 
+/* As sb_work.wall_body; with periodic sides never a single body. */
+static uint32_t body_of(const sb_sim *sim, const sb_one_wall *walls, size_t count)
+{
+    if (count == 0) return SB_WALL_NONE;
+    const uint32_t first = sb_wall_body(sim, walls[0].entry);
+    bool same = !sim->space.repeats;
+    for (size_t k = 0; k < count; k++) same = same && sb_wall_body(sim, walls[k].entry) == first;
+    return same ? first : SB_WALL_SEVERAL;
+}
+
 typedef struct all_terms {
     const sb_viscous *viscous;
     const sb_wall_drag *law;
@@ -140,19 +153,20 @@ static void forces_group(sb_sim *sim, const sb_group *group, const void *argumen
         sb_vec3 a = sb_vec(0, 0, -(double)sim->constant.gravity), drag = {0};
         if (sim->policy->holds_wave) a.x += (double)sb_settle_wave_acceleration(sim, sim->state.position[i]);
         if (terms->viscous->on) a = sb_add(a, viscous_part(sim, &around, i, terms->viscous));
-        for (size_t k = 0; k < sim->work.wall_pairs.count[i] && terms->law->on; k++) {
-            const sb_one_wall wall = sb_wall_at(sim, i, k);
-            drag = sb_add(drag, sb_plain_drag(sim, i, &wall, terms->law));
-        }
-        if (terms->law->on && sim->work.wall_pairs.count[i] > 0)
-            sim->work.wall_drag[i] = (sb_f4){(float)drag.x, (float)drag.y, (float)drag.z, 0};
         if (sim->needs.images) a = sb_add(a, sb_vector_of(sim->work.image_push[i]));
+        sb_one_wall walls[SB_PLAIN_WALLS_MAX];
+        const size_t count = terms->law->on ? sb_plain_walls(sim, i, walls) : 0;
+        for (size_t k = 0; k < count; k++) drag = sb_add(drag, sb_plain_drag(sim, i, &walls[k], terms->law));
+        if (count > 0) sim->work.wall_drag[i] = (sb_f4){(float)drag.x, (float)drag.y, (float)drag.z, 0};
+        if (sim->work.wall_body) sim->work.wall_body[i] = body_of(sim, walls, count);
         const sb_vec3 change = sb_scale(sb_add(a, drag), sim->state.time_step);
         sim->work.predicted[i] = sim->state.velocity[i] + (sb_f4){(float)change.x, (float)change.y, (float)change.z, 0};
     }
 }
 
-void sb_plain_forces(sb_sim *sim, const sb_viscous *viscous, const sb_wall_drag *law)
+sb_status sb_plain_forces(sb_sim *sim, const sb_viscous *viscous, const sb_wall_drag *law, sb_error *error)
 {
+    (void)error;
     sb_each_group(sim, forces_group, &(all_terms){viscous, law});
+    return SB_OK;
 }

@@ -6,9 +6,6 @@
 
 #include <math.h>
 
-/* Smallest r/h at which slopes are computed: coincident particles are separated by jitter, not by pressure. */
-static const double NEAREST = 1e-4;
-
 typedef struct searcher {
     sb_vicinity vicinity;
     sb_hits hits;
@@ -18,25 +15,6 @@ static void *create(const sb_sim *sim)
 {
     (void)sim;
     return sb_alloc(1, sizeof(searcher));
-}
-
-/* W in 1/m^d, and W'/r times the quantum. */
-typedef struct kernel_values {
-    double value, slope;
-} kernel_values;
-
-static kernel_values kernel_at(const sb_sim *sim, sb_vec3 offset)
-{
-    const sb_kernel *kernel = sim->scene->numerics.kernel;
-    const double h = (double)sim->constant.support, r = sb_norm(offset) * sim->space.quantum,
-                 near = fmax(r, NEAREST * h);
-    return (kernel_values){sb_kernel_value(kernel, sim->constant.dimension, h, r),
-                           sb_kernel_slope(kernel, sim->constant.dimension, h, near) / near * sim->space.quantum};
-}
-
-static bool within(const sb_sim *sim, sb_vec3 offset)
-{
-    return sb_norm(offset) * sim->space.quantum < (double)sim->constant.support;
 }
 
 /* Sums of one particle. */
@@ -52,8 +30,8 @@ static void add_water(const sb_sim *sim, const sb_vicinity *v, sb_vec3 self, siz
     size_t n = 0;
     for (size_t k = 0; k < v->count; k++) {
         const sb_vec3 d = sb_sub(self, sb_vector_of(v->place[k]));
-        if (k == own || !within(sim, d) || n == SB_LIST_MAX) continue;
-        const kernel_values w = kernel_at(sim, d);
+        if (k == own || !sb_plain_within(sim, d) || n == SB_LIST_MAX) continue;
+        const sb_plain_kernel w = sb_plain_kernel_at(sim, d);
         const double root = fmin(floor(sqrt(mass * w.slope / unit) + 0.5), SB_ROOT_MAX), slope = unit * root * root;
         s->density += mass * w.value;
         s->water = sb_madd(s->water, slope, d);
@@ -69,33 +47,17 @@ static void add_water(const sb_sim *sim, const sb_vicinity *v, sb_vec3 self, siz
     }
 }
 
-static void add_wall_cell(const sb_sim *sim, uint32_t number, uint64_t code, size_t i, sb_hits *hits, sums *s)
-{
-    const sb_wall_set *set = &sim->walls.set[number];
-    const int64_t cell = sb_cells_find(&set->cells, code);
-    for (uint32_t b = cell < 0 ? 0 : set->cells.begin[cell]; cell >= 0 && b < set->cells.begin[cell + 1]; b++) {
-        const sb_vec3 d = sb_offset_of(sim->state.position[i], set->record[b]);
-        if (!within(sim, d) || hits->count == SB_LIST_MAX) continue;
-        const kernel_values w = kernel_at(sim, d);
-        const double psi = (double)sb_carried_value(set->record[b]), slope = psi * w.slope;
-        const uint32_t entry = sb_wall_entry(number, b);
-        s->wall_density += psi * w.value;
-        s->wall = sb_madd(s->wall, slope, d);
-        s->flux += slope * sb_dot(d, sb_vector_of(sb_wall_velocity(sim, entry)));
-        hits->candidate[hits->count] = entry;
-        hits->slope[hits->count++] = (float)slope;
-    }
-}
-
 static void add_walls(const sb_sim *sim, size_t i, sb_hits *hits, sums *s)
 {
-    const int layers = sim->constant.dimension == 2 ? 0 : 1;
-    const uint64_t code = sb_cell_code(sim->state.position[i], sim->space.shift);
-    hits->count = 0;
-    for (uint32_t set = 0; set < SB_WALL_SETS; set++)
-        for (int dz = -1; dz <= 1; dz++)
-            for (int dy = -layers; dy <= layers; dy++)
-                for (int dx = -1; dx <= 1; dx++) add_wall_cell(sim, set, code + sb_cell_step(dx, dy, dz), i, hits, s);
+    sb_one_wall wall[SB_PLAIN_WALLS_MAX];
+    hits->count = sb_plain_walls(sim, i, wall);
+    for (size_t k = 0; k < hits->count; k++) {
+        s->wall_density += wall[k].value;
+        s->wall = sb_madd(s->wall, wall[k].slope, wall[k].offset);
+        s->flux += wall[k].slope * sb_dot(wall[k].offset, sb_vector_of(sb_wall_velocity(sim, wall[k].entry)));
+        hits->candidate[k] = wall[k].entry;
+        hits->slope[k] = (float)wall[k].slope;
+    }
 }
 
 static void set_fields(sb_sim *sim, size_t i, const sums *s)
@@ -126,7 +88,7 @@ static unsigned search(sb_sim *sim, void *of, sb_list_builder *lists, sb_group *
     sb_list_runs(lists, &w->vicinity, group);
     group->images = group->planes = 0;
     for (size_t i = group->first; i < group->end; i++) {
-        sums s = {.density = (double)sim->constant.mass * kernel_at(sim, (sb_vec3){0}).value};
+        sums s = {.density = (double)sim->constant.mass * sb_plain_kernel_at(sim, (sb_vec3){0}).value};
         add_water(sim, &w->vicinity, sb_offset_of(sim->state.position[i], group->corner), own_place(&w->vicinity, i),
                   &w->hits, &s);
         full |= w->hits.count == SB_LIST_MAX ? SB_FULL_LIST : 0;

@@ -115,24 +115,25 @@ static inline const sb_edge_pair *sb_edge_at(const sb_sim *sim, size_t i, size_t
     return &sim->work.edge_pairs.pair[sim->work.edge_pairs.first[i] + k];
 }
 
-/* A pair with a boundary particle: its entry, psi W'(r)/r times the quantum, x_ib in quanta, unit normal (0 0 0: none),
-   and the velocity of the water relative to it. */
+/* A pair with a boundary particle: its entry, psi W, psi W'(r)/r times the quantum, x_ib in quanta, unit normal
+   (0 0 0: none), and the velocity of the water relative to it. */
+enum { SB_PLAIN_WALLS_MAX = 1024 };
 typedef struct sb_one_wall {
     uint32_t entry;
-    double slope;
+    double value, slope;
     sb_vec3 offset, normal, velocity;
 } sb_one_wall;
 
-static inline sb_one_wall sb_wall_at(const sb_sim *sim, size_t i, size_t k)
-{
-    const size_t at = sim->work.wall_pairs.first[i] + k;
-    const uint32_t entry = sim->work.wall_pairs.index[at];
-    const sb_wall_set *set = sb_wall_set_of(sim, entry);
-    const uint32_t b = sb_wall_particle(entry);
-    return (sb_one_wall){entry, (double)sim->work.wall_pairs.slope[at],
-                         sb_offset_of(sim->state.position[i], set->record[b]), sb_vector_of(set->normal[b]),
-                         sb_sub(sb_vector_of(sim->state.velocity[i]), sb_vector_of(sb_wall_velocity(sim, entry)))};
-}
+/* walls.c: finds the pairs of particle i, in `out`; returns their number. */
+size_t sb_plain_walls(const sb_sim *sim, size_t i, sb_one_wall out[SB_PLAIN_WALLS_MAX]);
+
+/* W in 1/m^d, and W'/r times the quantum. */
+typedef struct sb_plain_kernel {
+    double value, slope;
+} sb_plain_kernel;
+
+sb_plain_kernel sb_plain_kernel_at(const sb_sim *sim, sb_vec3 offset);
+bool sb_plain_within(const sb_sim *sim, sb_vec3 offset);
 
 /* Adds the acceleration `a` of a particle by an image to its walls' reactions: each reflection takes what it turns
    round. at: m, the particle; force: as sb_body_sums.force. */

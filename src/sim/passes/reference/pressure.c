@@ -11,7 +11,7 @@ static void accelerate_group(sb_sim *sim, const sb_group *group, const void *arg
     sb_indices_of(sim, group, &around);
     for (size_t i = group->first; i < group->end; i++) {
         const double own = (double)sb_carried_value(sim->state.position[i]);
-        sb_vec3 sum = sb_scale(sb_vector_of(sim->work.wall[i]), own);
+        sb_vec3 sum = sb_scale(sb_vector_of(sb_wall_vector(sim, i)), own);
         for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
             const sb_one_pair p = sb_pair_at(sim, &around, i, k);
             const double other = (double)sb_carried_value(sim->state.position[p.other]);
@@ -19,7 +19,8 @@ static void accelerate_group(sb_sim *sim, const sb_group *group, const void *arg
         }
         for (size_t k = 0; k < sb_edge_count(sim, i); k++) {
             const sb_edge_pair *e = sb_edge_at(sim, i, k);
-            sum = sb_madd(sum, own + (double)sb_carried_value(sim->state.position[e->entry]), sb_vector_of(e->own));
+            sum = sb_madd(sum, own + (double)sb_carried_value(sim->state.position[e->entry]),
+                          sb_vector_of(sb_edge_own(e)));
         }
         sim->work.acceleration[i] = (sb_f4){(float)-sum.x, (float)-sum.y, (float)-sum.z, 0};
     }
@@ -43,7 +44,7 @@ static void diverge_group(sb_sim *sim, const sb_group *group, const void *argume
     sb_indices_of(sim, group, &around);
     for (size_t i = group->first; i < group->end; i++) {
         const sb_vec3 own = sb_vector_of(of->field[i]);
-        double sum = sb_dot(own, sb_vector_of(sim->work.wall[i]));
+        double sum = sb_dot(own, sb_vector_of(sb_wall_vector(sim, i)));
         for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
             const sb_one_pair p = sb_pair_at(sim, &around, i, k);
             const sb_vec3 other = sb_image_vector(&around, p.path, sb_vector_of(of->field[p.other]));
@@ -51,8 +52,8 @@ static void diverge_group(sb_sim *sim, const sb_group *group, const void *argume
         }
         for (size_t k = 0; k < sb_edge_count(sim, i); k++) {
             const sb_edge_pair *e = sb_edge_at(sim, i, k);
-            sum +=
-                sb_dot(sb_vector_of(e->own), own) + sb_dot(sb_vector_of(e->other), sb_vector_of(of->field[e->entry]));
+            sum += sb_dot(sb_vector_of(sb_edge_own(e)), own) +
+                   sb_dot(sb_vector_of(sb_edge_other(e)), sb_vector_of(of->field[e->entry]));
         }
         of->out[i] = (float)((double)of->factor * sum);
     }
@@ -90,11 +91,13 @@ static void virial_group(sb_sim *sim, const sb_group *group, const void *argumen
             const sb_vec3 d = sb_sub(own, sb_image_place(&around, p.path, place_before(sim, group, p.other)));
             sum += (unknown_of(sim, (uint32_t)i) + unknown_of(sim, p.other)) * p.slope * sb_dot(d, d);
         }
-        for (size_t k = 0; k < sim->work.wall_pairs.count[i] && !sim->needs.images; k++) {
-            const sb_one_wall wall = sb_wall_at(sim, i, k);
-            const sb_record record = sb_wall_set_of(sim, wall.entry)->record[sb_wall_particle(wall.entry)];
+        sb_one_wall walls[SB_PLAIN_WALLS_MAX];
+        const size_t count = sim->needs.images ? 0 : sb_plain_walls(sim, i, walls);
+        for (size_t k = 0; k < count; k++) {
+            const uint32_t entry = walls[k].entry;
+            const sb_record record = sb_wall_set_of(sim, entry)->record[sb_wall_particle(entry)];
             const sb_vec3 d = sb_sub(own, sb_offset_of(record, group->corner));
-            sum += unknown_of(sim, (uint32_t)i) * wall.slope * sb_dot(d, d);
+            sum += unknown_of(sim, (uint32_t)i) * walls[k].slope * sb_dot(d, d);
         }
         sim->work.virial[i] = (float)(factor * sum);
     }
