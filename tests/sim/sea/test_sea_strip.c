@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define SOLITARY "source: theory, wave: solitary, depth: 1"
 
@@ -180,6 +181,55 @@ static void the_volume_that_comes_in_is_the_given_one(void **state)
     shore_free(&s);
 }
 
+/* Water that flows in with a Froude number, one metre per second faster than the given flow, measured again and again
+   while no particle moves: the part of this that has become the outgoing wave within `times` times the way from the
+   measured water to the strip over the wave speed. */
+static double share_measured(double froude, double times)
+{
+    const shore_form form = {2, 0.1, 1, {6, 0, 1.5}, "{x_min: sea}", NULL};
+    const double speed = froude * sqrt(9.81), more = 1;
+    char folder[512], sea[640], path[600];
+    sb_error error = {0};
+    shore s;
+    assert_non_null(getcwd(folder, sizeof folder));
+    snprintf(path, sizeof path, "%s/current-%d.csv", folder, (int)getpid());
+    snprintf(sea, sizeof sea, "{source: table, file: %s}", path);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    fprintf(file, "t,eta,u\n0,0,%.17g\n100,0,%.17g\n", speed - more, speed - more);
+    fclose(file);
+    shore_make(&s, &form, sea);
+    sb_sim *sim = shore_sim(&s);
+    remove(path);
+    shore_run(sim, 1e-9);
+    sb_outgoing *station = &sim->strip->side[0].station[0];
+    *station = (sb_outgoing){.share = station->share}; /* nothing has come out until now */
+    const double way = sb_model_sea_reach(&s.model, s.model.still_depth);
+    for (size_t i = 0; i < sim->state.n; i++) sim->state.velocity[i] = (sb_f4){(float)speed, 0, 0, 0};
+    for (double t = 0; t < times * way / sqrt(9.81); t += sim->state.time_step)
+        assert_int_equal(sb_strip_measure(sim, &error), SB_OK);
+    const double share = station->value / more;
+    sb_sim_destroy(sim);
+    shore_free(&s);
+    return share;
+}
+
+/* A wave that goes out travels against the flow, with c - u: at a Froude number of 0.5 its measurement takes
+   twice the time as in still water, and where the flow is faster than waves nothing comes out. */
+static void a_wave_goes_out_against_the_flow(void **state)
+{
+    (void)state;
+    const double slow = share_measured(0, 1), half = share_measured(0.5, 2), late = share_measured(0.5, 1);
+    const double fast = share_measured(1.1, 4);
+    printf("outgoing wave: %.3f in still water, %.3f at a Froude number of 0.5 in twice the time, %.3f in the same; "
+           "%.4f at 1.1\n",
+           slow, half, late, fast);
+    assert_true(slow > 0.4);
+    assert_true(fabs(half - slow) < 0.05);
+    assert_true(late < 0.6 * slow);
+    assert_true(fabs(fast) < 1e-3);
+}
+
 /* Waters of two seas meet in corners. */
 static void a_wave_passes_corners(void **state)
 {
@@ -298,10 +348,15 @@ static void a_source_that_dries_the_strip_ends_the_run(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(still_water_rests),      cmocka_unit_test(water_rests_over_a_slope_with_a_dry_part),
-        cmocka_unit_test(a_solitary_wave_passes), cmocka_unit_test(the_volume_that_comes_in_is_the_given_one),
-        cmocka_unit_test(a_wave_passes_corners),  cmocka_unit_test(threads_and_resuming_do_not_matter),
-        cmocka_unit_test(bad_input_is_refused),   cmocka_unit_test(a_source_that_dries_the_strip_ends_the_run),
+        cmocka_unit_test(still_water_rests),
+        cmocka_unit_test(water_rests_over_a_slope_with_a_dry_part),
+        cmocka_unit_test(a_solitary_wave_passes),
+        cmocka_unit_test(the_volume_that_comes_in_is_the_given_one),
+        cmocka_unit_test(a_wave_goes_out_against_the_flow),
+        cmocka_unit_test(a_wave_passes_corners),
+        cmocka_unit_test(threads_and_resuming_do_not_matter),
+        cmocka_unit_test(bad_input_is_refused),
+        cmocka_unit_test(a_source_that_dries_the_strip_ends_the_run),
     };
     omp_set_num_threads(1); /* small scenes */
     return cmocka_run_group_tests(tests, NULL, NULL);
