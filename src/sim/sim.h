@@ -36,7 +36,7 @@ double sb_sim_sound_speed(const sb_scene *scene, const sb_model *model);
 /* The time step (s) for water with this maximum speed (m/s): an estimate that needs no simulation. */
 double sb_sim_longest_step(const sb_scene *scene, const sb_model *model, double speed);
 /* With walls that reflect water: places near which there are more facets of walls than the search for neighbours can
-   hold. A run ends when water comes there. */
+   hold. A run ends when water comes there. The model's boundary particles may be freed. */
 typedef struct sb_crowding {
     size_t places;
     sb_vec3 first;     /* m */

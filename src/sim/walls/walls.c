@@ -164,18 +164,27 @@ sb_status sb_paddles_create(sb_sim *sim, sb_error *error)
         moving->direction = use->direction;
         moving->share = 1 - model->bodies[b].held;
         moving->commanded = isinf(use->law.start);
-        sb_status status = sb_paddle_create(&use->law, &moving->paddle, error);
+        const sb_status status = sb_paddle_create(&use->law, &moving->paddle, error);
         if (status != SB_OK) return status;
         sim->walls.moving_of_body[b] = (uint32_t)sim->walls.moving_count++;
-        status = sb_absorber_create(sim, b, moving, error);
-        if (status != SB_OK) return status;
     }
     return SB_OK;
+}
+
+static sb_status create_absorbers(sb_sim *sim, sb_error *error)
+{
+    sb_status status = SB_OK;
+    for (size_t b = 0; status == SB_OK && b < sim->model->body_count; b++) {
+        const uint32_t m = sim->walls.moving_of_body[b];
+        if (m != UINT32_MAX) status = sb_absorber_create(sim, b, &sim->walls.moving[m], error);
+    }
+    return status;
 }
 
 sb_status sb_walls_create(sb_sim *sim, sb_error *error)
 {
     sb_status status = sb_paddles_create(sim, error);
+    if (status == SB_OK) status = create_absorbers(sim, error);
     if (status != SB_OK) return status;
     if (sim->model->wall_count >= (size_t)1 << SB_INDEX_BITS)
         return sb_fail(error, SB_BAD_INPUT, "%zu boundary particles: expected fewer than %d", sim->model->wall_count,

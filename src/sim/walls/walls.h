@@ -4,7 +4,7 @@
 
 #include "sim/simulation.h"
 
-/* The moving bodies alone: a part of sb_walls_create. */
+/* The moving bodies alone, which do not absorb yet: a part of sb_walls_create. It reads no boundary particles. */
 sb_status sb_paddles_create(sb_sim *sim, sb_error *error);
 sb_status sb_walls_create(sb_sim *sim, sb_error *error);
 void sb_walls_destroy(sb_sim *sim);

@@ -123,6 +123,22 @@ static void state_is_saved_and_independent_of_threads(void **state)
     free_flume(&g);
 }
 
+/* A run frees the model's boundary particles once it has a simulation, and then looks for crowded facets. */
+static void crowding_is_found_without_boundary_particles(void **state)
+{
+    (void)state;
+    flume f;
+    sb_crowding found;
+    sb_error error = {0};
+    make(&f, true);
+    sb_model_free_walls(&f.model);
+    assert_true(f.model.facets.count > 0);
+    assert_int_equal(sb_sim_find_crowding(&f.scene, &f.model, &found, &error), SB_OK);
+    assert_int_equal(found.places, 0);
+    assert_int_equal(tank_steps(f.sim, 1), 0);
+    free_flume(&f);
+}
+
 /* Rows of particles one spacing apart have the same depth wherever they lie before the face. */
 static void the_window_does_not_see_rows(void **state)
 {
@@ -139,6 +155,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_window_does_not_see_rows),
+        cmocka_unit_test(crowding_is_found_without_boundary_particles),
         cmocka_unit_test(waves_between_absorbers_die_out),
         cmocka_unit_test(state_is_saved_and_independent_of_threads),
     };
