@@ -76,6 +76,18 @@ SB_INLINE sb_f4 sb_wall_vector(const sb_sim *sim, size_t i)
     return sim->work.wall ? sim->work.wall[i] : (sb_f4){0};
 }
 
+/* The same for all particles: vector[i * step]. A choice for each particle would let compilers round sums otherwise. */
+typedef struct sb_wall_vectors {
+    const sb_f4 *vector;
+    size_t step;
+} sb_wall_vectors;
+
+SB_INLINE sb_wall_vectors sb_wall_vectors_of(const sb_sim *sim)
+{
+    static const sb_f4 none = {0};
+    return sim->work.wall ? (sb_wall_vectors){sim->work.wall, 1} : (sb_wall_vectors){&none, 0};
+}
+
 /* What the motion of walls adds to the divergence at particle i, kg/m^3/s. */
 SB_INLINE float sb_wall_flux(const sb_sim *sim, size_t i)
 {

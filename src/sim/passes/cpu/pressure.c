@@ -31,6 +31,7 @@ static void accelerate_group(sb_sim *sim, const sb_group *group, const void *arg
 {
     (void)arguments;
     const bool reflects = sim->needs.images;
+    const sb_wall_vectors wall = sb_wall_vectors_of(sim);
     _Alignas(64) sb_f4 around[SB_AROUND_MAX];
     sb_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
@@ -45,7 +46,8 @@ static void accelerate_group(sb_sim *sim, const sb_group *group, const void *arg
             even += (self - a) * ((q + sb_carried8(a)) * two_slopes(four->slope));
             odd += (self - b) * ((q + sb_carried8(b)) * two_slopes(four->slope + 2));
         }
-        const sb_f4 sum = fold(even + odd) * sb_splat(sim->work.pairs.unit) + sb_splat(own[3]) * sb_wall_vector(sim, i);
+        const sb_f4 sum =
+            fold(even + odd) * sb_splat(sim->work.pairs.unit) + sb_splat(own[3]) * wall.vector[i * wall.step];
         sim->work.acceleration[i] = (sb_f4){-sum[0], -sum[1], -sum[2], 0};
         if (reflects && sim->work.edge_pairs.count[i] > 0) sim->work.acceleration[i] -= sb_edges_push(sim, i, own[3]);
     }
@@ -59,6 +61,7 @@ static void diverge_group(sb_sim *sim, const sb_group *group, const void *argume
     const float factor = of->factor;
     float *out = of->out;
     const bool reflects = sim->needs.images;
+    const sb_wall_vectors wall = sb_wall_vectors_of(sim);
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     sb_around_vectors(sim, group, field, around);
     for (size_t i = group->first; i < group->end; i++) {
@@ -74,7 +77,7 @@ static void diverge_group(sb_sim *sim, const sb_group *group, const void *argume
             odd += sb_lower(c, d) * (sb_upper(c, d) * two_slopes(four->slope + 2));
         }
         out[i] =
-            factor * sb_sum3(fold(even + odd) * sb_splat(sim->work.pairs.unit) + field[i] * sb_wall_vector(sim, i));
+            factor * sb_sum3(fold(even + odd) * sb_splat(sim->work.pairs.unit) + field[i] * wall.vector[i * wall.step]);
         if (reflects && sim->work.edge_pairs.count[i] > 0) out[i] += factor * sb_edges_flow(sim, i, field);
     }
 }

@@ -51,6 +51,7 @@ WIDE static void accelerate_group(sb_sim *sim, const sb_group *group, const void
 {
     (void)arguments;
     const bool reflects = sim->needs.images;
+    const sb_wall_vectors wall = sb_wall_vectors_of(sim);
     _Alignas(64) sb_f4 around[SB_AROUND_MAX];
     sb_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
@@ -66,7 +67,7 @@ WIDE static void accelerate_group(sb_sim *sim, const sb_group *group, const void
             const __m512 weight = _mm512_mul_ps(both, four_slopes(four->slope));
             total = _mm512_fmadd_ps(_mm512_sub_ps(self, at), weight, total);
         }
-        const sb_f4 sum = fold(total) * sb_splat(sim->work.pairs.unit) + sb_splat(own[3]) * sb_wall_vector(sim, i);
+        const sb_f4 sum = fold(total) * sb_splat(sim->work.pairs.unit) + sb_splat(own[3]) * wall.vector[i * wall.step];
         sim->work.acceleration[i] = (sb_f4){-sum[0], -sum[1], -sum[2], 0};
         if (reflects && sim->work.edge_pairs.count[i] > 0) sim->work.acceleration[i] -= sb_edges_push(sim, i, own[3]);
     }
@@ -79,6 +80,7 @@ WIDE static void diverge_group(sb_sim *sim, const sb_group *group, const void *a
     const float factor = of->factor;
     float *out = of->out;
     const bool reflects = sim->needs.images;
+    const sb_wall_vectors wall = sb_wall_vectors_of(sim);
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
     sb_around_vectors(sim, group, field, around);
     for (size_t i = group->first; i < group->end; i++) {
@@ -94,7 +96,7 @@ WIDE static void diverge_group(sb_sim *sim, const sb_group *group, const void *a
             const __m512 weight = _mm512_mul_ps(_mm512_sub_ps(own, value), four_slopes(four->slope));
             total = _mm512_fmadd_ps(_mm512_sub_ps(self, at), weight, total);
         }
-        out[i] = factor * sb_sum3(fold(total) * sb_splat(sim->work.pairs.unit) + field[i] * sb_wall_vector(sim, i));
+        out[i] = factor * sb_sum3(fold(total) * sb_splat(sim->work.pairs.unit) + field[i] * wall.vector[i * wall.step]);
         if (reflects && sim->work.edge_pairs.count[i] > 0) out[i] += factor * sb_edges_flow(sim, i, field);
     }
 }
