@@ -84,10 +84,10 @@ static void add_grid(const sb_scene *scene, sb_offshore *water, estimate *e)
 static void visit_warnings(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context)
 {
     for (size_t w = 0; w < model->warning_count; w++) visit(context, model->warnings[w]);
-    sb_scene_warnings(scene, visit, context);
+    sb_error reason = {0};
+    if (sb_scene_warnings(scene, visit, context, &reason) != SB_OK) visit(context, reason.text);
     if (sb_scene_nested(scene)) sb_grid_wave_warnings(scene, visit, context);
-    sb_error walls = {0};
-    if (sb_facet_warnings(scene, model, visit, context, &walls) != SB_OK) visit(context, walls.text);
+    if (sb_facet_warnings(scene, model, visit, context, &reason) != SB_OK) visit(context, reason.text);
     sb_team_warnings(visit, context);
     /* Only a warning, because the run may be meant for another machine. */
     sb_error room = {0};

@@ -135,9 +135,10 @@ static sb_status note_start(run *r, sb_error *error)
     sb_run_report(r, "%zu fluid and %zu boundary particles, %zu bodies", r->model.fluid_count, r->model.wall_count,
                   r->model.body_count);
     sb_runlog_start(r->log, r->scene, &r->model, omp_get_max_threads(), sb_sim_bytes(r->sim));
-    sb_scene_warnings(r->scene, warn, r);
+    sb_status status = sb_scene_warnings(r->scene, warn, r, error);
+    if (status != SB_OK) return status;
     if (sb_scene_nested(r->scene)) sb_grid_wave_warnings(r->scene, warn, r);
-    const sb_status status = sb_facet_warnings(r->scene, &r->model, warn, r, error);
+    status = sb_facet_warnings(r->scene, &r->model, warn, r, error);
     if (status != SB_OK) return status;
     if (r->earlier.others == 1)
         sb_run_warn(r, "%.500s/%.300s: is not a file of a run; it is kept", r->directory, r->earlier.first_other);

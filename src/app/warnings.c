@@ -40,15 +40,16 @@ static void warn_of_window(const sb_scene *scene, const sb_reflection_set *set, 
 }
 
 /* Gauges near multiples of half a wavelength apart cannot tell incident from reflected waves. */
-static void warn_of_reflections(const sb_scene *scene, sb_warning_visit *visit, void *context)
+static sb_status warn_of_reflections(const sb_scene *scene, sb_warning_visit *visit, void *context, sb_error *error)
 {
     for (size_t r = 0; r < scene->measure.reflection_count; r++) {
         const sb_reflection_set *set = &scene->measure.reflections[r];
         warn_of_window(scene, set, visit, context);
         double *places = sb_alloc(set->gauge_count, sizeof *places);
-        for (size_t i = 0; places && i < set->gauge_count; i++) places[i] = sb_reflection_place(scene, set, i);
+        if (!places) return sb_fail_memory(error, "gauges of reflections");
+        for (size_t i = 0; i < set->gauge_count; i++) places[i] = sb_reflection_place(scene, set, i);
         const double first = sb_wave_number(set->period, set->depth, scene->fluid.gravity);
-        for (int h = 1; places && h <= set->harmonics; h++) {
+        for (int h = 1; h <= set->harmonics; h++) {
             const double number = sb_wave_number(set->period / h, set->depth, scene->fluid.gravity);
             char text[400];
             if (set->bound && h > 1) {
@@ -65,6 +66,7 @@ static void warn_of_reflections(const sb_scene *scene, sb_warning_visit *visit, 
         }
         sb_free(places);
     }
+    return SB_OK;
 }
 
 /* The times are in increasing order: the last one decides. */
@@ -95,7 +97,7 @@ static void warn_of_pieces(const sb_scene *scene, sb_warning_visit *visit, void 
           "0, or output.particle_pieces: false");
 }
 
-void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
+sb_status sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context, sb_error *error)
 {
     char text[256];
     warn_of_stills(scene, visit, context);
@@ -130,7 +132,7 @@ void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *con
     if (train && !sb_scene_repeats(scene, 0))
         visit(context, "water.wave: the sides along x are not periodic: the waves are reflected or end there, expected "
                        "sides of kind periodic");
-    warn_of_reflections(scene, visit, context);
+    const sb_status status = warn_of_reflections(scene, visit, context, error);
     sb_tension_warnings(scene, visit, context);
     if (scene->measure.interval > scene->duration) {
         snprintf(text, sizeof text,
@@ -139,6 +141,7 @@ void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *con
                  scene->measure.interval, scene->duration);
         visit(context, text);
     }
+    return status;
 }
 
 sb_status sb_facet_warnings(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context,

@@ -6,8 +6,9 @@
 
 typedef void sb_warning_visit(void *context, const char *text);
 
-/* Calls visit for each warning, a line without its newline. Warnings about meshes and sampling are in the model. */
-void sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context);
+/* Calls visit for each warning, a line without its newline. Warnings about meshes and sampling are in the model.
+   SB_FAILED without memory for one of them. */
+sb_status sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context, sb_error *error);
 
 /* The same for walls that reflect water and have more facets than the simulation can handle. SB_FAILED without memory.
  */
