@@ -277,7 +277,6 @@ sb_division sb_sim_division(const sb_sim *sim)
 
 size_t sb_sim_bytes(const sb_sim *sim)
 {
-    enum { WALL_BYTES = sizeof(sb_record) + 2 * sizeof(uint32_t) };
     size_t bytes = sb_state_bytes(&sim->state) + sim->work.bytes + sb_cells_bytes(&sim->cells) +
                    sim->work.cell_sum_capacity * sizeof *sim->work.cell_sum +
                    sim->work.node_capacity * SB_TENSION_VALUES * sizeof *sim->work.node +
@@ -291,9 +290,9 @@ size_t sb_sim_bytes(const sb_sim *sim)
     bytes += sim->groups.images_room * sizeof *sim->groups.image + sim->groups.planes_room * sizeof *sim->groups.plane;
     bytes += sim->work.edge_pairs.capacity * sizeof *sim->work.edge_pairs.pair + sb_mirrors_bytes(sim);
     for (int s = 0; s < SB_WALL_SETS; s++)
-        bytes += sb_cells_bytes(&sim->walls.set[s].cells) + sim->walls.set[s].count * WALL_BYTES +
+        bytes += sb_cells_bytes(&sim->walls.set[s].cells) + sim->walls.set[s].count * SB_WALL_BYTES +
                  (sim->walls.set[s].near_mask + 1) * 8;
-    bytes += sim->walls.share.count * WALL_BYTES + sb_wall_normals_bytes(&sim->walls.normals);
+    bytes += sim->walls.share.count * SB_WALL_BYTES + sb_wall_normals_bytes(&sim->walls.normals);
     bytes += sim->walls.boundary.count * (4 * sizeof(float) + sizeof(uint32_t));
-    return bytes + sim->walls.rest.count * WALL_BYTES;
+    return bytes + sim->walls.rest.count * SB_WALL_BYTES;
 }

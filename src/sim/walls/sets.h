@@ -20,6 +20,9 @@ typedef struct sb_wall_set {
     uint64_t near_mask;
 } sb_wall_set;
 
+/* Of a boundary particle: record, body, index of its normal. */
+enum { SB_WALL_BYTES = sizeof(sb_record) + 2 * sizeof(uint32_t) };
+
 enum { SB_STATIC, SB_MOVING, SB_WALL_SETS };
 
 struct sb_absorber; /* sim/walls/absorber.h */

@@ -13,9 +13,6 @@
 /* TURNS: turns per requested repeat, because the difference is smaller than the spread of a few repeats. */
 enum { DRY_STEPS = 4, TURNS = 3 };
 
-/* A boundary particle: record, body, index of its normal. */
-enum { WALL_BYTES = 24 };
-
 /* Runs the program as a user does, for a few steps. */
 static sb_status whole_program(const sb_bench_request *request, sb_bench_rows *rows, sb_error *error)
 {
@@ -42,9 +39,9 @@ static void add_arrays(const char *name, const sb_bench_subject *subject, sb_ben
     const sb_sim *sim = subject->sim;
     const sb_model *model = &subject->model;
     const double n = (double)sim->state.n;
-    double walls = (double)sb_wall_normals_bytes(&sim->walls.normals) + WALL_BYTES * (double)sim->walls.rest.count;
+    double walls = (double)sb_wall_normals_bytes(&sim->walls.normals) + SB_WALL_BYTES * (double)sim->walls.rest.count;
     for (int s = 0; s < SB_WALL_SETS; s++)
-        walls += (double)(sb_cells_bytes(&sim->walls.set[s].cells) + sim->walls.set[s].count * WALL_BYTES +
+        walls += (double)(sb_cells_bytes(&sim->walls.set[s].cells) + sim->walls.set[s].count * SB_WALL_BYTES +
                           (sim->walls.set[s].near_mask + 1) * 8);
     const struct {
         const char *name;
