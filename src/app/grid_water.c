@@ -53,6 +53,13 @@ void sb_grid_wave_warnings(const sb_scene *scene, sb_warning_visit *visit, void 
     }
     if (o->wave.kind == SB_INITIAL_SOLITARY) {
         const double length = 2 * o->wave.depth / sqrt(0.75 * o->wave.height / o->wave.depth);
+        if (o->wave.position < o->x_min || o->wave.position > o->x_max) {
+            snprintf(text, sizeof text,
+                     "offshore.wave.position: the crest at x = %g m begins outside of the grid, which has at most the "
+                     "wave's flank; expected a place from %g to %g m",
+                     o->wave.position, o->x_min, o->x_max);
+            visit(context, text);
+        }
         if (o->cell > length / 10) {
             snprintf(text, sizeof text,
                      "offshore.cell: %g m is coarse for a solitary wave about %.3g m long; expected at most %.2g m",

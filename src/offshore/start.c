@@ -21,6 +21,7 @@ void sb_offshore_start_free(sb_offshore_start *start)
     sb_free(start->depth);
     sb_free(start->hu);
     sb_offshore_told_free(&start->told);
+    sb_free(start->projection);
     *start = (sb_offshore_start){0};
 }
 

@@ -28,6 +28,7 @@ typedef struct sb_offshore_start {
     double highest;           /* m, z of the highest surface */
     double fastest;           /* m/s, the highest speed */
     double *bed, *depth, *hu; /* m, m, m^2/s */
+    char *projection;         /* coordinate system of the terrain's grids; NULL: none states one */
     sb_offshore_told_list told;
 } sb_offshore_start;
 

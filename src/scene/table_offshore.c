@@ -53,9 +53,9 @@ static const sb_table side_table = {SB_KEY_ROWS(side_keys)};
          .type = SB_KEY_TEXT,                                                                                          \
          SB_KEY_AT(sb_offshore_grid, projection),                                                                      \
          .fallback = "\"\"",                                                                                           \
-         .doc = "Coordinate system to which the grid is projected, in metres, such as `EPSG:32654`. Empty: that of a " \
-                "file in metres, or the UTM zone of the middle of a file in degrees; all grids of a scene need the "   \
-                "same."},                                                                                              \
+         .doc = "Coordinate system to which the grid is projected, in metres, such as `EPSG:32654`. Empty: that of "   \
+                "the grids before it; for the first, that of a file in metres, or the UTM zone of the middle of a "    \
+                "file in degrees. All grids need the same."},                                                          \
     {                                                                                                                  \
         .name = "shift", .type = SB_KEY_PLACE, SB_KEY_AT(sb_offshore_grid, x), .unit = "m", SB_KEY_ANY,                \
         .derived = "no shift", .doc = "Value added to x and y, after `scale`."                                         \

@@ -42,7 +42,7 @@ static int column_of(const char *cell)
     return COLUMNS;
 }
 
-static sb_status read_header(const sb_rows *rows, layout *found, sb_error *error)
+static sb_status read_header(const sb_rows *rows, int dimensions, layout *found, sb_error *error)
 {
     for (int c = 0; c < COLUMNS; c++) found->column[c] = -1;
     found->cells = rows->cell_count;
@@ -54,11 +54,13 @@ static sb_status read_header(const sb_rows *rows, layout *found, sb_error *error
                            rows->cells[i]);
         found->column[column] = (int)i;
     }
-    const char *missing = found->column[T] < 0                            ? "t"
-                          : found->column[ETA] < 0                        ? "eta"
-                          : found->column[U] < 0                          ? "u"
-                          : found->column[X] < 0 && found->column[Y] >= 0 ? "x"
-                                                                          : NULL;
+    const bool x = found->column[X] >= 0, y = found->column[Y] >= 0;
+    const char *missing = found->column[T] < 0         ? "t"
+                          : found->column[ETA] < 0     ? "eta"
+                          : found->column[U] < 0       ? "u"
+                          : y && !x                    ? "x"
+                          : x && !y && dimensions == 3 ? "y"
+                                                       : NULL;
     if (!missing) return SB_OK;
     return sb_fail(
         error, SB_BAD_INPUT,
@@ -109,7 +111,8 @@ static sb_status add_row(const sb_rows *rows, const double *value, double unit, 
     return sb_line_add(series, unit * value[X], unit * value[Y], value[T], channels, sb_rows_place(rows, place), error);
 }
 
-static sb_status read_csv(sb_rows *rows, char *line, sb_given_unit unit, sb_line *series, sb_error *error)
+static sb_status read_csv(sb_rows *rows, char *line, sb_given_unit unit, int dimensions, sb_line *series,
+                          sb_error *error)
 {
     static const char *const what[] = {"t", "x", "y", "eta", "u", "v"};
     layout found = {.cells = 0};
@@ -128,7 +131,7 @@ static sb_status read_csv(sb_rows *rows, char *line, sb_given_unit unit, sb_line
                 rows->path, rows->line);
         if (status == SB_OK) status = sb_rows_cut(rows, line, error);
         if (status == SB_OK && !known)
-            status = header ? read_header(rows, &found, error) : guess_layout(rows, &found, error);
+            status = header ? read_header(rows, dimensions, &found, error) : guess_layout(rows, &found, error);
         if (status != SB_OK) return status;
         const bool first = !known;
         known = true;
@@ -180,11 +183,12 @@ static sb_status read_geoclaw(sb_rows *rows, char *line, sb_given_unit unit, sb_
     return status;
 }
 
-sb_status sb_table_read(sb_rows *rows, sb_given_unit unit, sb_line *series, sb_error *error)
+sb_status sb_table_read(sb_rows *rows, sb_given_unit unit, int dimensions, sb_line *series, sb_error *error)
 {
     char *line = sb_rows_next(rows);
     if (!line) return sb_fail(error, SB_BAD_INPUT, "%.500s: is empty, expected rows of t, eta, u", rows->path);
     series->channels = SB_TABLE_CHANNELS;
     const bool geoclaw = *line == '#' && strstr(line, "gauge_id");
-    return (geoclaw ? read_geoclaw : read_csv)(rows, line, unit, series, error);
+    return geoclaw ? read_geoclaw(rows, line, unit, series, error)
+                   : read_csv(rows, line, unit, dimensions, series, error);
 }

@@ -239,12 +239,33 @@ static void grids_of_the_bed_have_coordinate_systems(void **state)
     assert_int_equal(o.status, 1);
     assert_one_line(o.err, "these look like longitudes and latitudes, expected metres, or the key crs");
     outcome_free(&o);
+    /* In the zone beside it, the same shift would put the grid elsewhere. */
     o = program_run((const char *const[]){"check", "zones.yaml", "--set",
                                           "offshore.uplift={file: fine.nc, projection: EPSG:32653, "
-                                          "shift: [-1070900, -4270000]}",
+                                          "shift: [-546730, -4249750]}",
+                                          NULL});
+    assert_int_equal(o.status, 1);
+    assert_one_line(o.err, "offshore.uplift: its projection EPSG:32653 puts its first node 5.2");
+    assert_contains(o.err, "from where EPSG:32654 of the grids before it does, expected the same projection for all");
+    outcome_free(&o);
+    /* Without the key it has the projection of the grids before it, though it is the middle of another zone. */
+    grid_sample west = in_degrees;
+    west.x -= 8;
+    grid_sample_netcdf(&west, in_folder("west.nc"));
+    o = program_run((const char *const[]){"check", "zones.yaml", "--set",
+                                          "offshore.terrain=[{file: gebco.asc, crs: EPSG:4326, shift: [-546730, "
+                                          "-4249750]}, {file: west.nc, shift: [-546730, -4249750]}]",
                                           NULL});
     if (o.status != 0) fail_msg("%s", o.err);
-    assert_contains(o.out, "    ground: EPSG:32653; ");
+    assert_contains(o.out, "west.nc: EPSG:4326, projected");
+    assert_contains(o.out, "    ground: EPSG:32654; ");
+    outcome_free(&o);
+    /* Another name of the same system is no other place. */
+    o = program_run((const char *const[]){"check", "zones.yaml", "--set",
+                                          "offshore.uplift={file: fine.nc, projection: +proj=utm +zone=54 "
+                                          "+datum=WGS84 +type=crs, shift: [-546730, -4249750]}",
+                                          NULL});
+    if (o.status != 0) fail_msg("%s", o.err);
     outcome_free(&o);
 }
 

@@ -71,6 +71,9 @@ static void check_and_run_give_the_same_warnings(void **state)
          "output: {plots: false, particle_pieces: true}\n",
          "output.particle_pieces: true, but the run writes no particle files",
          "expected output.particle_interval above"},
+        {"title: t\ndimensions: 2\nduration: 0.02\noutput: {plots: false}\ndomain: {min: [0, -1], max: [40, 1]}\n"
+         "offshore: {cell: 0.2, level: 0, wave: {kind: solitary, height: 0.1, depth: 1, position: -4}}\n",
+         "offshore.wave.position: the crest at x = -4 m begins outside of the grid", "expected a place from 0 to 40 m"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         write_text("doubtful.yaml", cases[k].scene);

@@ -145,6 +145,8 @@ static void what_is_refused(void **state)
                 "table.csv:4: time 7 s does not follow 8 s, expected increasing times");
     sea_refused(SEA_FLAT, TABLE, "time_s,gauge,eta_m,z_m\n0,a,0,0\n",
                 "table.csv:1: no column is u, expected t, eta, u");
+    sea_refused(SEA_SPACE, TABLE, "t,x,eta,u\n0,0,0,0\n20,0,0,0\n0,4,0,0\n20,4,0,0\n",
+                "table.csv:1: no column is y, expected t, eta, u");
     sea_refused(SEA_FLAT, TABLE, "0,0\n1,2\n", "table.csv:1: 2 columns without a header");
     sea_refused(SEA_FLAT, TABLE, "t,eta,eta,u\n", "two columns are eta");
     sea_refused(SEA_FLAT, TABLE, "t (s), eta (mm), u\n0,0,0\n", "names the unit mm, expected seconds and m");

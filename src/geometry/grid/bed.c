@@ -1,5 +1,7 @@
 #include "geometry/grid/bed.h"
 #include "base/memory.h"
+#include "geometry/grid/projection.h"
+#include "geometry/grid/raster.h"
 #include "geometry/mesh/mesh.h"
 
 #include <math.h>
@@ -90,28 +92,82 @@ static sb_status keep_told(const char *name, sb_mesh *mesh, sb_offshore_told_lis
     return SB_OK;
 }
 
-static sb_status draw_body(raster *r, const sb_body *body, sb_offshore_told_list *told, sb_error *error)
+static sb_status draw_meshes(raster *r, const char *name, sb_mesh *meshes, size_t count, sb_offshore_told_list *told,
+                             sb_error *error)
 {
-    sb_mesh *meshes = NULL;
-    size_t count = 0;
-    sb_status status = sb_mesh_from_body(body, r->cell, &meshes, &count, error);
-    for (size_t m = 0; m < count; m++) {
+    sb_status status = SB_OK;
+    for (size_t m = 0; m < count && status == SB_OK; m++) {
         const sb_vec3 *v = meshes[m].vertices;
         for (size_t i = 0; i < meshes[m].vertex_count; i++) include(r, v[i]);
         for (size_t t = 0; t < meshes[m].triangle_count; t++) {
             const uint32_t *corner = meshes[m].triangles[t];
             draw(r, v[corner[0]], v[corner[1]], v[corner[2]]);
         }
-        if (status == SB_OK) status = keep_told(body->name, &meshes[m], told, error);
-        sb_mesh_free(&meshes[m]);
+        status = keep_told(name, &meshes[m], told, error);
     }
-    sb_free(meshes);
     return status;
 }
 
-static sb_status draw_grid(raster *r, const sb_offshore_grid *grid, const char *key, sb_offshore_told_list *told,
+static void free_meshes(sb_mesh *meshes, size_t count)
+{
+    for (size_t m = 0; m < count; m++) sb_mesh_free(&meshes[m]);
+    sb_free(meshes);
+}
+
+static sb_status draw_body(raster *r, const sb_body *body, sb_offshore_told_list *told, sb_error *error)
+{
+    sb_mesh *meshes = NULL;
+    size_t count = 0;
+    sb_status status = sb_mesh_from_body(body, r->cell, &meshes, &count, error);
+    if (status == SB_OK) status = draw_meshes(r, body->name, meshes, count, told, error);
+    free_meshes(meshes, count);
+    return status;
+}
+
+/* ---- grids of the model itself ---- */
+
+/* Fails when a place of the ground is elsewhere in the projection of the grids before it. */
+static sb_status check_projection(const sb_body *body, const sb_mesh *ground, const char *before, double cell,
+                                  sb_error *error)
+{
+    if (!ground->projection || !before || strcmp(ground->projection, before) == 0) return SB_OK;
+    sb_projection *between = NULL;
+    const sb_status status = sb_projection_create(ground->projection, before, &between, error);
+    if (status != SB_OK) return status;
+    const sb_vec3 at = sb_scale(sb_sub(ground->vertices[0], body->translate), 1 / body->scale);
+    double place[2] = {at.x, at.y};
+    sb_projection_forward(between, place);
+    sb_projection_destroy(between);
+    const double away = hypot(place[0] - at.x, place[1] - at.y);
+    if (away < cell) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT,
+                   "its projection %.100s puts its first node %.3g m from where %.100s of the grids before it does, "
+                   "expected the same projection for all grids",
+                   ground->projection, away, before);
+}
+
+/* Draws the ground of a grid. Keeps the projection of the first grid that has one. */
+static sb_status draw_ground(raster *r, const sb_body *body, sb_offshore_start *start, sb_error *error)
+{
+    sb_mesh *meshes = NULL;
+    size_t count = 0;
+    sb_status status = sb_mesh_from_body(body, r->cell, &meshes, &count, error);
+    for (size_t m = 0; m < count && status == SB_OK; m++) {
+        status = check_projection(body, &meshes[m], start->projection, r->cell, error);
+        if (start->projection) continue;
+        start->projection = meshes[m].projection;
+        meshes[m].projection = NULL;
+    }
+    if (status == SB_OK) status = draw_meshes(r, body->name, meshes, count, &start->told, error);
+    free_meshes(meshes, count);
+    return status;
+}
+
+static sb_status draw_grid(raster *r, const sb_offshore_grid *grid, const char *key, sb_offshore_start *start,
                            sb_error *error)
 {
+    const bool own = grid->projection && grid->projection[0];
+    const bool states = sb_raster_is(grid->file) || (grid->crs && grid->crs[0]); /* else it is in metres of any */
     sb_body body = {.shape = SB_SHAPE_GRID,
                     .role = SB_ROLE_TERRAIN,
                     .file = grid->file,
@@ -119,20 +175,20 @@ static sb_status draw_grid(raster *r, const sb_offshore_grid *grid, const char *
                     .positive = grid->positive,
                     .datum = grid->datum,
                     .crs = grid->crs,
-                    .projection = grid->projection,
+                    .projection = own || !states ? grid->projection : start->projection,
                     .voids = SB_VOIDS_SHOW,
                     .translate = sb_vec(grid->x, grid->y, 0)};
     snprintf(body.name, sizeof body.name, "%s", key);
-    const size_t first = told->count;
+    const size_t first = start->told.count;
     sb_error reason = {0};
-    const sb_status status = draw_body(r, &body, told, &reason);
+    const sb_status status = draw_ground(r, &body, start, &reason);
     if (status != SB_OK) {
         char prefix[80]; /* the scene has no such body */
         const int length = snprintf(prefix, sizeof prefix, "body \"%s\": ", key);
         const bool named = strncmp(reason.text, prefix, (size_t)length) == 0;
         return sb_fail(error, status, "%s: %s", key, reason.text + (named ? length : 0));
     }
-    for (size_t k = first; k < told->count; k++) told->items[k].is_key = true;
+    for (size_t k = first; k < start->told.count; k++) start->told.items[k].is_key = true;
     return status;
 }
 
@@ -186,7 +242,7 @@ sb_status sb_bed_fill(const sb_scene *scene, sb_offshore_start *start, sb_error 
     for (size_t k = 0; status == SB_OK && k < o->terrain_count; k++) {
         char key[48];
         snprintf(key, sizeof key, "offshore.terrain[%zu]", k);
-        status = draw_grid(&r, &o->terrain[k], key, &start->told, error);
+        status = draw_grid(&r, &o->terrain[k], key, start, error);
     }
     if (o->terrain_count > 0) return status == SB_OK ? check_covered(&r, error) : status;
     for (size_t b = 0; status == SB_OK && b < scene->body_count; b++)
@@ -215,7 +271,7 @@ sb_status sb_uplift_fill(const sb_scene *scene, sb_offshore_start *start, sb_err
     sb_status status = SB_OK;
     clear(&r);
     if (scene->offshore.has_uplift) {
-        status = draw_grid(&r, &scene->offshore.uplift, "offshore.uplift", &start->told, error);
+        status = draw_grid(&r, &scene->offshore.uplift, "offshore.uplift", start, error);
         if (status == SB_OK) status = check_reached(&r, error);
     }
     for (size_t k = 0; k < r.columns * r.rows; k++)

@@ -10,13 +10,16 @@ size_t sb_bed_columns(const sb_scene *scene);
 size_t sb_bed_rows(const sb_scene *scene);
 
 /* Fills start->bed, which has room for the cells, in m: linear within the triangles of offshore.terrain, or else the
-   highest surface of the bodies seen from above, or else the domain's floor. SB_BAD_INPUT names a file that cannot be
-   read, or the first cell that offshore.terrain does not cover. Sets start->uncovered, and start->told to what the
-   grids state; the caller frees it also on error. */
+   highest surface of the bodies seen from above, or else the domain's floor. A grid of offshore.terrain without a key
+   `projection` has that of the grids before it. SB_BAD_INPUT names a file that cannot be read, the first cell that
+   offshore.terrain does not cover, or a grid whose projection puts places elsewhere than that of the grids before it.
+   Sets start->uncovered, start->projection, and start->told to what the grids state; the caller frees both also on
+   error. */
 sb_status sb_bed_fill(const sb_scene *scene, sb_offshore_start *start, sb_error *error);
 
 /* Fills start->depth, which has room for the cells, with offshore.uplift in the same way, in m: 0 where its grid has no
-   height, and everywhere without an uplift. SB_BAD_INPUT names a file that cannot be read, or that covers no cell.
+   height, and everywhere without an uplift. Its projection is as that of a further grid of offshore.terrain.
+   SB_BAD_INPUT names a file that cannot be read, or that covers no cell.
    Appends what the grid states to start->told. */
 sb_status sb_uplift_fill(const sb_scene *scene, sb_offshore_start *start, sb_error *error);
 

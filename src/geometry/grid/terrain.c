@@ -261,6 +261,8 @@ sb_status sb_terrain_make(const sb_body *body, const sb_terrain_area *wanted, sb
         status = sb_grid_mesh(ground.layers[0].path, &ground.grid, &made, error);
     }
     if (status == SB_OK) status = sb_terrain_tell(body, &ground, &made.told, error);
+    if (status == SB_OK && ground.projection[0] && !(made.projection = sb_strdup(ground.projection)))
+        status = sb_fail_memory(error, "terrain");
     if (status == SB_OK)
         *mesh = made;
     else

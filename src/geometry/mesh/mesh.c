@@ -20,5 +20,6 @@ void sb_mesh_free(sb_mesh *mesh)
     sb_free(mesh->triangles);
     sb_free(mesh->holes);
     sb_free(mesh->told);
+    sb_free(mesh->projection);
     *mesh = (sb_mesh){0};
 }

@@ -26,6 +26,7 @@ typedef struct sb_mesh {
     size_t hole_count; /* number of the grid's nodes without a height */
     sb_vec3 *holes;    /* positions of these nodes, z has no meaning */
     char *told;        /* lines that describe a terrain grid, for `check`; NULL: none */
+    char *projection;  /* coordinate system of a terrain grid's ground; NULL: its files state none */
     double rounded;    /* m, rounding error of the file's coordinates in single precision */
 } sb_mesh;
 
