@@ -68,6 +68,9 @@ typedef struct sb_requested {
 /* How several ranks share the work. Means are over the ranks. */
 typedef struct sb_rank_load {
     double mean_particles, most_particles; /* of a rank, now */
+    double mean_halo;                      /* particles of other ranks that a rank reads, now */
+    double mean_excess, worst_excess;      /* of the largest load by pairs over the mean; as sb_division */
+    double cuts;                           /* how often the particles were divided anew */
     double imbalance;                      /* by how much the busiest rank computed longer than the mean; 0.1: 10 % */
     double waited;                         /* share of the time of the stages in which a rank waited for others */
     double bytes, messages;                /* that a rank sent per step */

@@ -272,7 +272,9 @@ size_t sb_sim_owned(const sb_sim *sim)
 sb_division sb_sim_division(const sb_sim *sim)
 {
     const sb_domains *d = sim->domains;
-    return (sb_division){sim->state.n, sim->ghosts.halo, d ? d->imbalance : 0, d ? d->cuts : 0};
+    sb_division made = {.owned = sim->state.n, .halo = sim->ghosts.halo};
+    if (d) made = (sb_division){made.owned, made.halo, d->imbalance, d->mean, d->worst, d->cuts};
+    return made;
 }
 
 size_t sb_sim_bytes(const sb_sim *sim)

@@ -169,6 +169,7 @@ size_t sb_sim_owned(const sb_sim *sim);
 typedef struct sb_division {
     size_t owned, halo; /* particles of this rank, and those of other ranks that it reads */
     double imbalance;   /* largest load of a rank over the mean, less 1, by pairs; counted once in several searches */
+    double mean, worst; /* of all such counts of this process, without the first, when particles were divided evenly */
     uint64_t cuts;      /* how often the particles have been divided anew */
 } sb_division;
 sb_division sb_sim_division(const sb_sim *sim);

@@ -2,6 +2,7 @@
  */
 #include "sim/exchange/domains.h"
 
+#include <math.h>
 #include <string.h>
 
 /* A block's own cells, and what a step costs per particle besides its pairs, in pairs. */
@@ -107,6 +108,11 @@ void sb_domains_balance(sb_sim *sim, bool found)
     }
     const double mean = (double)all / (double)ranks, excess = (double)largest - mean;
     d->imbalance = all > 0 ? excess / mean : 0;
+    if (d->counts > 0) {
+        d->mean += (d->imbalance - d->mean) / (double)d->counts;
+        d->worst = fmax(d->worst, d->imbalance);
+    }
+    d->counts++;
     if (!(excess > IMBALANCE * mean)) return;
     proposal made[SB_RANKS_MAX];
     memset(made, 0, sizeof made);

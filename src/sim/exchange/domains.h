@@ -33,9 +33,11 @@ typedef struct sb_domains {
     uint64_t *cut;  /* ranks + 1: rank r has the keys [cut[r], cut[r + 1]) */
     uint64_t *next; /* the same from the next sort on, if `recut` */
     bool recut;
-    uint64_t searches; /* for neighbours, so far */
-    uint64_t cuts;     /* made anew, so far */
-    double imbalance;  /* largest load over the mean, less 1, when it was last counted */
+    uint64_t searches;  /* for neighbours, so far */
+    uint64_t cuts;      /* made anew, so far */
+    double imbalance;   /* largest load over the mean, less 1, when it was last counted */
+    double mean, worst; /* of all counts but the first, when each rank had as many particles */
+    uint64_t counts;
     sb_halo_plan plan;
     bool under_way; /* a refresh: that of `flight` */
     sb_halo flight;

@@ -34,7 +34,7 @@ typedef struct job {
     int misplaced[RANKS];                    /* particles that are not in their rank's range of keys after a sort */
     bool has_fast[RANKS], has_slower[RANKS]; /* in the end */
     uint64_t hash[RANKS], cuts[RANKS];
-    double imbalance[RANKS];
+    double imbalance[RANKS], worst[RANKS];
     size_t first_owned[RANKS];
     size_t walls[RANKS]; /* static boundary particles that a rank has in the end */
     sb_error error[RANKS];
@@ -83,8 +83,11 @@ static void run(sb_ranks *ranks, void *context)
     if (status == SB_OK && j->fast != NONE) status = sb_sim_step(sim, &j->error[rank]);
     if (status == SB_OK) {
         j->hash[rank] = sb_sim_hash(sim);
-        j->imbalance[rank] = sb_sim_division(sim).imbalance;
-        j->cuts[rank] = sb_sim_division(sim).cuts;
+        const sb_division division = sb_sim_division(sim);
+        j->imbalance[rank] = division.imbalance;
+        j->worst[rank] = division.worst;
+        j->cuts[rank] = division.cuts;
+        assert_true(division.mean >= 0 && division.mean <= division.worst);
         status = sb_stage_sort(sim, &j->error[rank]);
         j->misplaced[rank] = count_misplaced(sim);
         j->walls[rank] = sim->walls.set[SB_STATIC].count;
@@ -115,6 +118,7 @@ static void a_bad_cut_is_mended(void **state)
         assert_true(ranks.cuts[r] >= 1 && ranks.cuts[r] <= 2);
         /* Blocks of up to 170 of the 864 particles are not divided. */
         assert_true(ranks.imbalance[r] < 0.12 && ranks.imbalance[r] == ranks.imbalance[0]);
+        assert_true(ranks.worst[r] >= ranks.imbalance[r] && ranks.worst[r] == ranks.worst[0]);
     }
     printf("imbalance %g after %d cuts\n", ranks.imbalance[0], (int)ranks.cuts[0]);
     for (int r = 0; r < RANKS; r++) {
