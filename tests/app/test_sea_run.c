@@ -100,6 +100,42 @@ static void every_source_comes_in(void **state)
     assert_near(highest_of("table"), 0.05, 0.01);
 }
 
+/* A wave of 22 m on 14 m of water rises within 2 s and falls over 6 s, at the foot of a slope of 1:10.6, with u = 2 (c
+   - c0): at its crest u is 0.75 c. As much comes in as is given. Nothing has come back from the shore at 16 s. A strip
+   that takes what it has let in for a wave that leaves brings in 3.4 % more. */
+static void a_steep_wave_on_a_slope_brings_what_is_given(void **state)
+{
+    (void)state;
+    static const double profile[][2] = {{300, -14}, {400, -14}, {472, -7.2}, {800, -2}, {1500, 30}};
+    const double g = 9.81, depth = 14, step = 0.25, end = 16;
+    char text[4000] = "";
+    size_t used = 0;
+    for (int k = 0; k < 5; k++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "v %g -500 %g\nv %g 500 %g\n", profile[k][0],
+                                 profile[k][1], profile[k][0], profile[k][1]);
+    for (int k = 1; k < 9; k += 2)
+        used += (size_t)snprintf(text + used, sizeof text - used, "f %d %d %d %d\n", k, k + 2, k + 3, k + 1);
+    write_text("bed.obj", text);
+    double given = 0, last = 0;
+    used = (size_t)snprintf(text, sizeof text, "t,eta,u\n");
+    for (double t = 0; t <= end + 1; t += step) {
+        const double eta = t < 4 ? 0 : t < 6 ? 11 * (t - 4) : 22 * exp((6 - t) / 6);
+        const double u = 2 * (sqrt(g * (depth + eta)) - sqrt(g * depth)), flux = (depth + eta) * u;
+        used += (size_t)snprintf(text + used, sizeof text - used, "%g,%.6f,%.6f\n", t, eta, u);
+        if (t <= end) given += 0.5 * step * (last + flux);
+        last = flux;
+    }
+    write_text("wave.csv", text);
+    write_text("slope.yaml", "title: t\ndimensions: 2\nresolution: 2\nduration: 16\noutput: {plots: false}\n"
+                             "domain: {min: [400, -50], max: [1400, 100], sides: {x_min: sea, z_max: open}}\n"
+                             "water: {level: 0, seed: [430, -2]}\nsea: {source: table, file: wave.csv}\n"
+                             "bodies: [{name: bed, shape: mesh, role: terrain, file: bed.obj}]\n");
+    RUN_AND_FORGET(0, "run", "slope.yaml", "--out", "slope", "--quiet");
+    const double in = (mass_in("slope", "energy_end") - mass_in("slope", "energy_start")) / 1000;
+    printf("in %.0f m2 of %.0f given\n", in, given);
+    assert_near(in, given, 0.015 * given);
+}
+
 static void a_sea_without_a_source_is_still(void **state)
 {
     (void)state;
@@ -268,6 +304,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_source_comes_in),
+        cmocka_unit_test(a_steep_wave_on_a_slope_brings_what_is_given),
         cmocka_unit_test(a_sea_without_a_source_is_still),
         cmocka_unit_test(a_run_resumes_with_the_same_table_only),
         cmocka_unit_test(bad_input_gives_one_line),

@@ -188,20 +188,15 @@ typedef struct times {
     double delay, crossing, far;
 } times;
 
-/* Advances a station by a step. */
-static void advance(sb_outgoing *o, double now, const times *t, double dt)
+/* Advances a station by a step. The wave travels against a flow that comes in, at c - u: `pace` is that speed over c.
+   Time for what is between the measured water and the strip therefore runs by this factor, and stands still where no
+   wave gets out. It does not run faster where water flows out: the loop is stable with these frequencies, not with
+   higher ones. rate and curvature are derivatives in this time, so that rate / c is the wave's gradient. */
+static void advance(sb_outgoing *o, double now, double pace, const times *t, double dt)
 {
-    filter(&o->value, &o->rate, now, 2 * DAMPING / t->delay, DAMPING, dt);
-    o->curvature = filter(&o->slow, &o->slow_rate, o->value, SLOW / t->crossing, DAMPING, dt);
+    filter(&o->value, &o->rate, now, 2 * DAMPING / t->delay, DAMPING, pace * dt);
+    o->curvature = filter(&o->slow, &o->slow_rate, o->value, SLOW / t->crossing, DAMPING, pace * dt);
     if (t->far > 0) delay_wave(o, t->far, t->crossing, dt);
-}
-
-/* The share of the measured wave that is from within. Against a flow u that comes in, a wave gets out at c - u, and
-   none does where u >= c: what is measured there is what the strip itself has let in, which must not come back to it
-   (docs/decisions/0092). Where water flows out, all of it is from within. */
-static double share_from_within(double u, double c)
-{
-    return fmin(fmax(1 - u / c, 0), 1);
 }
 
 static void measure_station(sb_sim *sim, const sb_strip_side *s, size_t station)
@@ -221,14 +216,17 @@ static void measure_station(sb_sim *sim, const sb_strip_side *s, size_t station)
     const double wave_speed = sqrt(g * fmax(in.depth, dr));
     const times t = {reach / wave_speed, fmax(in.depth, dr) / wave_speed, s->far / wave_speed};
     if (!(volume > LEAST_DEPTH * dr * area)) {
-        advance(o, 0, &t, dt);
+        advance(o, 0, 1, &t, dt);
         return;
     }
     const double level = level_of(sim, s, station, in.surface, volume * o->share);
     const double depth = fmax(in.depth + level - in.surface, 0), scale = (double)sim->constant.wave_speed;
     const double u = (double)sums[1] / (double)sums[0] * scale;
     const double now = u - in.inwards - 2 * (sqrt(g * depth) - sqrt(g * in.depth));
-    advance(o, now * share_from_within(u, sqrt(g * fmax(depth, dr))), &t, dt);
+    /* Froude number of the flow that comes in. The faster it is, the more of what is measured is the strip's own, which
+       must not come back to it: the share 1 - F^2 is from within (docs/decisions/0092). */
+    const double froude = fmin(fmax(u / sqrt(g * fmax(depth, dr)), 0), 1);
+    advance(o, now * (1 - froude * froude), 1 - froude, &t, dt);
 }
 
 sb_status sb_strip_measure(sb_sim *sim, sb_error *error)

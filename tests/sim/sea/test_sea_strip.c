@@ -214,19 +214,21 @@ static double share_measured(double froude, double times)
     return share;
 }
 
-/* A wave that goes out travels against the flow, with c - u: at a Froude number of 0.5 its measurement takes
-   twice the time as in still water, and where the flow is faster than waves nothing comes out. */
+/* A wave that goes out travels against the flow, with c - u: at a Froude number F of 0.5 its measurement takes
+   twice the time as in still water, and the share 1 - F^2 of it counts. Where water flows out, it is measured as in
+   still water, and where the flow is faster than waves nothing comes out. */
 static void a_wave_goes_out_against_the_flow(void **state)
 {
     (void)state;
-    const double slow = share_measured(0, 1), half = share_measured(0.5, 2), late = share_measured(0.5, 1);
-    const double fast = share_measured(1.1, 4);
+    const double calm = share_measured(0, 1), half = share_measured(0.5, 2), late = share_measured(0.5, 1);
+    const double ebb = share_measured(-0.5, 1), fast = share_measured(1.1, 4);
     printf("outgoing wave: %.3f in still water, %.3f at a Froude number of 0.5 in twice the time, %.3f in the same; "
-           "%.4f at 1.1\n",
-           slow, half, late, fast);
-    assert_true(slow > 0.4);
-    assert_true(fabs(half - slow) < 0.05);
-    assert_true(late < 0.6 * slow);
+           "%.3f at -0.5; %.4f at 1.1\n",
+           calm, half, late, ebb, fast);
+    assert_true(calm > 0.4);
+    assert_near(half, 0.75 * calm, 0.02);
+    assert_true(late < 0.6 * 0.75 * calm);
+    assert_near(ebb, calm, 0.02);
     assert_true(fabs(fast) < 1e-3);
 }
 
