@@ -64,8 +64,8 @@ static sb_status read_header(const sb_rows *rows, int dimensions, layout *found,
     if (!missing) return SB_OK;
     return sb_fail(
         error, SB_BAD_INPUT,
-        "%.500s:%zu: no column is %s, expected t, eta, u and optionally v, and x, y where there is more than "
-        "one point",
+        "%.500s:%zu: no column is %s, expected t, eta, u and optionally v, and x and y together where there is more "
+        "than one point",
         rows->path, rows->line, missing);
 }
 

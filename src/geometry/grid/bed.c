@@ -138,8 +138,14 @@ static sb_status check_projection(const sb_body *body, const sb_mesh *ground, co
     double place[2] = {at.x, at.y};
     sb_projection_forward(between, place);
     sb_projection_destroy(between);
-    const double away = hypot(place[0] - at.x, place[1] - at.y);
+    const double away = body->scale * hypot(place[0] - at.x, place[1] - at.y);
     if (away < cell) return SB_OK;
+    if (!isfinite(away))
+        return sb_fail(
+            error, SB_BAD_INPUT,
+            "its first node has no place in %.100s, the projection of the grids before it, expected the same "
+            "projection for all grids",
+            before);
     return sb_fail(error, SB_BAD_INPUT,
                    "its projection %.100s puts its first node %.3g m from where %.100s of the grids before it does, "
                    "expected the same projection for all grids",
