@@ -27,6 +27,13 @@ static int reference_seeds(const sb_contest_selection *selection)
     return seeds < SB_REFERENCE_SEEDS ? seeds : SB_REFERENCE_SEEDS;
 }
 
+/* Spacing of the reference run; 0: the subject has none. */
+static double reference_spacing(const sb_contest_selection *selection, const sb_subject *subject)
+{
+    const double own = selection->quick ? subject->quick_reference : subject->full_reference;
+    return own > 0 && selection->reference > 0 ? selection->reference : own;
+}
+
 /* Adds an entry, which must not move afterwards: its plan points into it. A choice that changes nothing
    (a factor of a default of 0) is omitted: its runs would be those of `default`. */
 static void add(sb_contest *c, const sb_choice *choice, double spacing, const sb_contest_selection *selection,
@@ -82,7 +89,7 @@ sb_status sb_contest_begin(sb_contest *c, const sb_subject *subject, const sb_st
                            const sb_contest_selection *selection, sb_error *error)
 {
     const double *spacings = selection->quick ? subject->quick : subject->full;
-    const double reference = selection->quick ? subject->quick_reference : subject->full_reference;
+    const double reference = reference_spacing(selection, subject);
     const size_t most = sb_choice_count() * SB_SUBJECT_SPACINGS + 1;
     bool any = false, others = !selection->choice;
     sb_numerics defaults;

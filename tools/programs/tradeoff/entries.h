@@ -41,6 +41,7 @@ typedef struct sb_contest_selection {
     bool few;           /* those choices at the full form's spacings */
     int seeds;          /* start seeds of every run */
     int references;     /* seeds of the reference, at most 2; 0: as many as of other runs */
+    double reference;   /* spacing of the reference, m; 0: that of the subject */
     int spacings;       /* only so many coarsest ones; 0: all */
     double spacing;     /* only this one, m; 0: all */
     const char *choice; /* only choices whose names contain it, and `default`; NULL: all */

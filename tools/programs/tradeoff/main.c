@@ -23,6 +23,7 @@ static const char help[] =
     "  --list           lists scenes and choices\n"
     "  --seeds N        start seeds of every run (3; quick: 1)\n"
     "  --references N   start seeds of the reference run of the plant, 1 or 2 (default: --seeds)\n"
+    "  --reference R    spacing of this run, in m (2; quick: 6)\n"
     "  --jobs N         N runs at a time with one thread each, compared by processor time; 1: one run\n"
     "                   with all cores, compared by run time (1; quick: the number of cores)\n"
     "  --report-only    runs nothing; writes the report again from stored runs\n"
@@ -57,7 +58,8 @@ static sb_status parse(int count, char **arguments, options *o, sb_error *error)
         {.name = "--choice", .text = &s->choice, .repeated = true},
         {.name = "--report-only", .flag = &o->common.report_only},
         {.name = "--seeds", .count = &s->seeds, .most = SB_ENTRY_SEEDS, .repeated = true},
-        {.name = "--references", .count = &s->references, .most = SB_REFERENCE_SEEDS, .repeated = true}};
+        {.name = "--references", .count = &s->references, .most = SB_REFERENCE_SEEDS, .repeated = true},
+        {.name = "--reference", .number = &s->reference, .most = 1e6, .repeated = true}};
     const sb_command_line line = {.tool = "tradeoff",
                                   .help = help,
                                   .list = list,
