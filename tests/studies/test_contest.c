@@ -157,7 +157,7 @@ static void test_subjects_have_spacings_and_errors(void **state)
     }
 }
 
-/* Fewer choices or spacings are selected; there is a reference only if runs are compared with it. */
+/* Fewer choices or spacings, or another reference, are selected; there is a reference only if runs are compared with it. */
 static void test_part_of_runs_can_be_selected(void **state)
 {
     (void)state;
@@ -170,6 +170,7 @@ static void test_part_of_runs_can_be_selected(void **state)
         {.seeds = 1, .spacings = 1},
         {.seeds = 1, .spacing = s->full[1]},
         {.seeds = 1, .spacing = 0.123},
+        {.seeds = 1, .reference = 3},
     };
     enum { SELECTIONS = sizeof selections / sizeof *selections };
     size_t entries[SELECTIONS];
@@ -178,7 +179,8 @@ static void test_part_of_runs_can_be_selected(void **state)
         sb_error error = {0};
         if (sb_contest_begin(&c, s, &store, &selections[w], &error) != SB_OK) fail_msg("%s", error.text);
         entries[w] = c.entry_count;
-        assert_true(c.entry_count == 0 || !c.entries[0].choice);
+        const double reference = selections[w].reference > 0 ? selections[w].reference : s->full_reference;
+        assert_true(c.entry_count == 0 || (!c.entries[0].choice && c.entries[0].plan.resolution == reference));
         for (size_t i = 1; i < c.entry_count; i++) {
             const double spacing = c.entries[i].plan.resolution;
             assert_true(!selections[w].few || c.entries[i].choice->quick);
@@ -190,6 +192,8 @@ static void test_part_of_runs_can_be_selected(void **state)
     assert_true(entries[1] < entries[0] && entries[2] < entries[0]);
     assert_int_equal(entries[3], entries[2]);
     assert_int_equal(entries[4], 0);
+    assert_int_equal(entries[5], entries[0]);
+    assert_true(s->full_reference != 3);
 }
 
 /* By a part of their names choices are selected in any form, beside `default` and the reference. */
