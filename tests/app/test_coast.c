@@ -269,6 +269,28 @@ static void grids_of_the_bed_have_coordinate_systems(void **state)
     outcome_free(&o);
 }
 
+/* When the bodies are the bed, their grid has the projection of the uplift. */
+static void an_uplift_has_the_projection_of_the_bodies(void **state)
+{
+    (void)state;
+    grid_sample_tiff(&survey, in_folder("survey.tif"));
+    grid_sample_netcdf(&in_degrees, in_folder("fine.nc"));
+    write_text("bodies.yaml", "title: Bed\nduration: 1\ndomain: {min: [0, 0, -20], max: [100, 40, 10]}\n"
+                              "bodies:\n  - {name: coast, shape: grid, file: survey.tif, origin: [547000, 4250000], "
+                              "voids: fill}\n"
+                              "offshore: {cell: 10, level: 0, uplift: {file: fine.nc, projection: EPSG:32653, "
+                              "shift: [-547000, -4250000]}}\noutput: {plots: false}\n");
+    outcome o = program_run((const char *const[]){"check", "bodies.yaml", NULL});
+    assert_int_equal(o.status, 1);
+    assert_one_line(o.err, "offshore.uplift: its projection EPSG:32653 puts its first node 5.2");
+    assert_contains(o.err, "from where EPSG:32654 of the grids before it does");
+    outcome_free(&o);
+    o = program_run(
+        (const char *const[]){"check", "bodies.yaml", "--set", "offshore.uplift.projection=EPSG:32654", NULL});
+    if (o.status != 0) fail_msg("%s", o.err);
+    outcome_free(&o);
+}
+
 /* A text grid as a body, with keys that change its places and heights. */
 static void a_text_grid_is_told(void **state)
 {
@@ -321,6 +343,7 @@ int main(void)
         cmocka_unit_test(degrees_are_the_bed_of_a_grid),
         cmocka_unit_test(a_text_grid_is_told),
         cmocka_unit_test(grids_of_the_bed_have_coordinate_systems),
+        cmocka_unit_test(an_uplift_has_the_projection_of_the_bodies),
         cmocka_unit_test(refusals_name_the_remedy),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

@@ -114,12 +114,21 @@ static void free_meshes(sb_mesh *meshes, size_t count)
     sb_free(meshes);
 }
 
-static sb_status draw_body(raster *r, const sb_body *body, sb_offshore_told_list *told, sb_error *error)
+/* Keeps the projection of the first ground that has one. */
+static void keep_projection(sb_mesh *mesh, sb_offshore_start *start)
+{
+    if (start->projection) return;
+    start->projection = mesh->projection;
+    mesh->projection = NULL;
+}
+
+static sb_status draw_body(raster *r, const sb_body *body, sb_offshore_start *start, sb_error *error)
 {
     sb_mesh *meshes = NULL;
     size_t count = 0;
     sb_status status = sb_mesh_from_body(body, r->cell, &meshes, &count, error);
-    if (status == SB_OK) status = draw_meshes(r, body->name, meshes, count, told, error);
+    for (size_t m = 0; m < count; m++) keep_projection(&meshes[m], start);
+    if (status == SB_OK) status = draw_meshes(r, body->name, meshes, count, &start->told, error);
     free_meshes(meshes, count);
     return status;
 }
@@ -152,7 +161,7 @@ static sb_status check_projection(const sb_body *body, const sb_mesh *ground, co
                    ground->projection, away, before);
 }
 
-/* Draws the ground of a grid. Keeps the projection of the first grid that has one. */
+/* Draws the ground of a grid, whose projection is that of the grids before it. */
 static sb_status draw_ground(raster *r, const sb_body *body, sb_offshore_start *start, sb_error *error)
 {
     sb_mesh *meshes = NULL;
@@ -160,9 +169,7 @@ static sb_status draw_ground(raster *r, const sb_body *body, sb_offshore_start *
     sb_status status = sb_mesh_from_body(body, r->cell, &meshes, &count, error);
     for (size_t m = 0; m < count && status == SB_OK; m++) {
         status = check_projection(body, &meshes[m], start->projection, r->cell, error);
-        if (start->projection) continue;
-        start->projection = meshes[m].projection;
-        meshes[m].projection = NULL;
+        keep_projection(&meshes[m], start);
     }
     if (status == SB_OK) status = draw_meshes(r, body->name, meshes, count, &start->told, error);
     free_meshes(meshes, count);
@@ -252,7 +259,7 @@ sb_status sb_bed_fill(const sb_scene *scene, sb_offshore_start *start, sb_error 
     }
     if (o->terrain_count > 0) return status == SB_OK ? check_covered(&r, error) : status;
     for (size_t b = 0; status == SB_OK && b < scene->body_count; b++)
-        status = draw_body(&r, &scene->bodies[b], &start->told, error);
+        status = draw_body(&r, &scene->bodies[b], start, error);
     for (size_t k = 0; k < r.columns * r.rows; k++) {
         start->uncovered += isnan(bed[k]) && scene->body_count > 0;
         if (!(bed[k] >= scene->domain.min.z)) bed[k] = scene->domain.min.z;
