@@ -89,7 +89,8 @@ static void describe(const sb_rank_load *load, char text[500])
     snprintf(
         text, 500,
         "%.0f particles on average, at most %.0f, and %.0f of others; the largest load by pairs is %.1f %% above the "
-        "mean, at most %.1f %%, after %.0f cuts; computing differs by %.1f %%; a rank sends %.4g kB in %.4g messages "
+        "mean, at most %.1f %% (cuts of the water: %.0f); computing differs by %.1f %%; a rank sends %.4g kB in %.4g "
+        "messages "
         "per step, and waits %.1f %% of its time",
         load->mean_particles, load->most_particles, load->mean_halo, 100 * load->mean_excess, 100 * load->worst_excess,
         load->cuts, 100 * load->imbalance, 1e-3 * load->bytes, load->messages, 100 * load->waited);

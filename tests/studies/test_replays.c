@@ -182,6 +182,22 @@ static void a_failed_recording_fails_the_replay(void **state)
     sb_contest_free(&contest);
 }
 
+/* A failure that another tool noted while the run went on does not count once it has ended. */
+static void a_run_that_ends_has_not_failed(void **state)
+{
+    (void)state;
+    char folder[SB_PATH_MAX], reason[64];
+    begin();
+    const sb_request *request = &contest.records[1].request;
+    assert_int_equal(sb_run_folder(&store, request, folder, NULL), SB_OK);
+    assert_int_equal(sb_process_claim(folder, NULL), SB_OK);
+    assert_int_equal(sb_run_fail(folder, "another run writes here\n", NULL), SB_OK);
+    assert_true(sb_run_failed(&store, request, reason, sizeof reason));
+    finish(request, 20, "t_s\n");
+    assert_false(sb_run_failed(&store, request, reason, sizeof reason));
+    sb_contest_free(&contest);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -189,6 +205,7 @@ int main(void)
         cmocka_unit_test(the_time_is_that_of_the_replay),
         cmocka_unit_test(a_replay_belongs_to_the_contents_of_its_record),
         cmocka_unit_test(a_failed_recording_fails_the_replay),
+        cmocka_unit_test(a_run_that_ends_has_not_failed),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

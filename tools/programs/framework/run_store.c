@@ -92,15 +92,6 @@ static void find_sources(const char *folder, char text[64])
     if (in) fclose(in);
 }
 
-sb_status sb_run_finish(const sb_store *store, const char *folder, double cpu, sb_error *error)
-{
-    char sources[64];
-    find_sources(folder, sources);
-    return sb_record_write(folder, SB_RECORD_NAME, error, "commit: %s\nmachine: %s\ncpu_s: %.6g\nload: %.3g\n",
-                           store->commit[0] ? store->commit : sources, store->machine, spent(folder) + cpu,
-                           sb_origin_load());
-}
-
 sb_status sb_run_forget(const char *folder, sb_error *error)
 {
     static const char *const marks[] = {SB_RECORD_NAME, failure_name};
@@ -111,6 +102,17 @@ sb_status sb_run_forget(const char *folder, sb_error *error)
         if (unlink(path) != 0 && errno != ENOENT) return sb_fail(error, SB_FAILED, "%.400s: %s", path, strerror(errno));
     }
     return SB_OK;
+}
+
+sb_status sb_run_finish(const sb_store *store, const char *folder, double cpu, sb_error *error)
+{
+    char sources[64];
+    sb_status status = sb_run_forget(folder, error);
+    if (status != SB_OK) return status;
+    find_sources(folder, sources);
+    return sb_record_write(folder, SB_RECORD_NAME, error, "commit: %s\nmachine: %s\ncpu_s: %.6g\nload: %.3g\n",
+                           store->commit[0] ? store->commit : sources, store->machine, spent(folder) + cpu,
+                           sb_origin_load());
 }
 
 sb_status sb_run_fail(const char *folder, const char *reason, sb_error *error)
