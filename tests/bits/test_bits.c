@@ -1,5 +1,5 @@
 /* Tests that runs have the same bits with 1, 2, 3 and 8 threads, with and without consumers, on this instruction set:
-   the column and the plant at coarse spacings. */
+   the column and the plant at coarse spacings, the column with each preset. */
 #include "app/program.h"
 
 #include "base/memory.h"
@@ -21,15 +21,18 @@
 /* fused: hash after 30 steps with fused multiply-add (x86-64-v3 and -v4), plain: without. They are those of the release
    build by gcc 12.2. A commit that changes bits on purpose changes them and says so. */
 static const struct {
-    const char *name, *file, *resolution;
+    const char *name, *file, *preset, *resolution, *settle;
     uint64_t fused, plain;
 } scenes[] = {
-    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "resolution=0.035", 0x837660d9e9b63f1d,
-     0xd0b183adb2019665},
-    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "resolution=20", 0xc6e19df568e24c9c, 0x7410cb4ff62a649d},
+    {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "default", "resolution=0.035",
+     "numerics.settle_steps=20", 0x837660d9e9b63f1d, 0xd0b183adb2019665},
+    {"column with boundary particles", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "paper",
+     "resolution=0.035", "numerics.settle_steps=20", 0x2f5a2af1e0181126, 0x7d2e545b3b99ba4a},
+    {"column with explicit steps", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "wen", "resolution=0.035",
+     "numerics.settle_steps=0", 0xc2cb2e4487cd2b92, 0x1f6b1b16aeec0e2c},
+    {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "default", "resolution=20", "numerics.settle_steps=20",
+     0xc6e19df568e24c9c, 0x7410cb4ff62a649d},
 };
-
-static const char settle[] = "numerics.settle_steps=20";
 
 static uint64_t count_steps(void)
 {
@@ -104,8 +107,8 @@ static void check_program(size_t s, end final, bool consumers, const char *threa
     snprintf(frames[1], sizeof frames[1], "output={particle_interval: %.6g, plots: false}", interval);
     snprintf(frames[2], sizeof frames[2], "stream={enabled: %s, url: 'memq://'}", consumers ? "true" : "false");
     RUN_AND_FORGET(0, "run", scenes[s].file, "--out", "bits", "--quiet", "--overwrite", "--until", until, "--threads",
-                   threads, "--set", scenes[s].resolution, "--set", settle, "--set", frames[0], "--set", frames[1],
-                   "--set", frames[2]);
+                   threads, "--preset", scenes[s].preset, "--set", scenes[s].resolution, "--set", scenes[s].settle,
+                   "--set", frames[0], "--set", frames[1], "--set", frames[2]);
     char *text = text_of("bits/summary.json");
     const char *value = json_find(text, "state_hash");
     assert_non_null(value);
@@ -125,9 +128,9 @@ static void check_scene(size_t s)
     sb_model model = {0};
     sb_error error = {0};
     snprintf(resolution, sizeof resolution, "%s", strchr(scenes[s].resolution, '=') + 1);
-    snprintf(steps, sizeof steps, "%s", strchr(settle, '=') + 1);
+    snprintf(steps, sizeof steps, "%s", strchr(scenes[s].settle, '=') + 1);
     const sb_override overrides[] = {{"resolution", resolution}, {"numerics.settle_steps", steps}};
-    if (sb_scene_read(scenes[s].file, NULL, overrides, 2, &scene, &error) != SB_OK ||
+    if (sb_scene_read(scenes[s].file, scenes[s].preset, overrides, 2, &scene, &error) != SB_OK ||
         sb_model_build(&scene, &model, &error) != SB_OK)
         fail_msg("%s", error.text);
     const end alone = run_simulation(&scene, &model, 1);
@@ -144,24 +147,24 @@ static void check_scene(size_t s)
     check_program(s, alone, true, "3");
 }
 
-static void test_column(void **state)
+static void scene_has_its_bits(void **state)
 {
-    (void)state;
-    check_scene(0);
+    check_scene((size_t) * (const int *)*state);
 }
 
-static void test_plant(void **state)
-{
-    (void)state;
-    check_scene(1);
-}
+#define TEST(scene, row)                                                                                               \
+    {                                                                                                                  \
+        .name = scene, .test_func = scene_has_its_bits, .initial_state = &(int)                                        \
+        {                                                                                                              \
+            row                                                                                                        \
+        }                                                                                                              \
+    }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_column),
-        cmocka_unit_test(test_plant),
-    };
+    const struct CMUnitTest tests[] = {TEST("column", 0), TEST("boundary_particles", 1), TEST("explicit_steps", 2),
+                                       TEST("plant", 3)};
+    _Static_assert(sizeof tests / sizeof *tests == sizeof scenes / sizeof *scenes, "each scene is tested");
     if (!is_available()) return 77; /* the processor does not have this instruction set */
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }
