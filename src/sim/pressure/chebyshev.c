@@ -11,10 +11,6 @@
    is not known. */
 static const double START = 0.1, SHARE = 8, SMALLEST_MIN = 0.06, SMALLEST_MAX = 0.2;
 
-/* Violently moving water may have larger eigenvalues. The error then grows from sweep to sweep; when it has grown by
-   the factor GROWN, the iteration restarts with a wider interval. */
-static const double GROWN = 2, WIDER = 1.4;
-
 /* Coefficients of the recurrence [Golub and Varga 1961]. */
 typedef struct polynomial {
     double largest, smallest, theta, delta, rho;
@@ -77,14 +73,10 @@ static sb_status solve(sb_sim *sim, sb_error *error)
         polynomial next = p;
         sb_pressure_residual(sim);
         const sb_pressure_error judged = ahead ? judge_and_go_ahead(sim, &next) : sb_pressure_judge(sim);
-        const bool done = sb_pressure_done(sim, &judged), grown = !done && judged.residual > GROWN * least;
+        const bool done = sb_pressure_done(sim, &judged), grown = !done && sb_pressure_grown(&judged, &least);
         if (ahead && (done || grown)) sb_pressure_drop_ahead(sim);
         if (done) return SB_OK;
-        if (grown) {
-            p = begin(WIDER * p.largest, p.smallest);
-            least = judged.residual;
-        }
-        least = judged.residual < least ? judged.residual : least;
+        if (grown) p = begin(SB_PRESSURE_WIDER * p.largest, p.smallest);
         if (ahead && !grown) {
             sb_pressure_keep_ahead(sim);
             p = next;

@@ -2,6 +2,8 @@
 #include "sim/pressure/pressure.h"
 #include "sim/simulation.h"
 
+#include <math.h>
+
 /* The relaxation factor. Above 2 / (largest eigenvalue) every sweep adds to the error. With wide supports that limit is
    below the usual 0.5. */
 static float factor(const sb_sim *sim)
@@ -13,12 +15,14 @@ static float factor(const sb_sim *sim)
 static sb_status solve(sb_sim *sim, sb_error *error)
 {
     (void)error;
-    const float omega = factor(sim);
+    float omega = factor(sim);
+    double least = (double)INFINITY;
     for (;;) {
         const size_t n = sim->state.n;
         sb_pressure_residual(sim);
         sb_pressure_error judged = sb_pressure_judge(sim);
         if (sb_pressure_done(sim, &judged)) return SB_OK;
+        if (sb_pressure_grown(&judged, &least)) omega /= (float)SB_PRESSURE_WIDER;
 #pragma omp parallel for schedule(static)
         for (size_t i = 0; i < n; i++) {
             if (sim->work.diagonal[i] == 0) continue;

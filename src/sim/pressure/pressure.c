@@ -26,6 +26,14 @@ double sb_pressure_spectrum(const sb_sim *sim)
     return DISORDER * sim->constant.spectrum;
 }
 
+bool sb_pressure_grown(const sb_pressure_error *error, double *least)
+{
+    static const double GROWN = 2;
+    const bool grown = error->residual > GROWN * *least;
+    if (grown || error->residual < *least) *least = error->residual;
+    return grown;
+}
+
 /* Computes b_i = beta (rho_0 - rho_i) - dt div_i of one group, with v* and the walls' velocities. sim->work.source
    holds div_i on entry. Sums the density above the rest density, and returns the largest. */
 static double source_group(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])

@@ -33,6 +33,11 @@ extern const sb_pressure_solver sb_solver_wcsph;
 
 /* Largest eigenvalue of D^-1 A that the solvers assume: that of a full lattice with a margin for disorder and walls. */
 double sb_pressure_spectrum(const sb_sim *sim);
+/* Violently moving water may have larger ones: the error then grows from sweep to sweep. True when it has doubled since
+   the least of this solve, or since it last had; *least, at first INFINITY, follows it. The solver then assumes an
+   eigenvalue SB_PRESSURE_WIDER times as large. */
+bool sb_pressure_grown(const sb_pressure_error *error, double *least);
+static const double SB_PRESSURE_WIDER = 1.4;
 
 /* Copies a field into the last lane of the records: the argument of the next product. */
 void sb_pressure_load(sb_sim *sim, const float *argument);
