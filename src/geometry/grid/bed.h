@@ -18,10 +18,9 @@ size_t sb_bed_rows(const sb_scene *scene);
 sb_status sb_bed_fill(const sb_scene *scene, sb_offshore_start *start, sb_error *error);
 
 /* Fills start->depth, which has room for the cells, with offshore.uplift in the same way, in m: 0 where its grid has no
-   height, and everywhere without an uplift. Its projection is as that of a further grid of offshore.terrain, or of the first grid
-   among the bodies when these are the bed.
-   SB_BAD_INPUT names a file that cannot be read, or that covers no cell.
-   Appends what the grid states to start->told. */
+   height, and everywhere without an uplift. Its projection is as that of a further grid of offshore.terrain, or of the
+   first grid among the bodies when these are the bed. SB_BAD_INPUT names a file that cannot be read, or that covers no
+   cell. Appends what the grid states to start->told. */
 sb_status sb_uplift_fill(const sb_scene *scene, sb_offshore_start *start, sb_error *error);
 
 #endif

@@ -16,8 +16,8 @@ bool sb_run_find(const sb_store *store, const sb_request *request, bool any_buil
 sb_status sb_run_spend(const char *folder, double cpu, sb_error *error);
 /* Marks the run in a folder as finished and writes its record: commit (for a program from elsewhere the hash of its
    sources from the log), machine, cpu_s (processor time of all threads, including stopped parts) and load (the
-   machine's mean over the last minute). A mark of a failure, as another tool leaves that tried to run in the same folder
-   meanwhile, is removed. */
+   machine's mean over the last minute). A mark of a failure, as another tool leaves that tried to run in the same
+   folder meanwhile, is removed. */
 sb_status sb_run_finish(const sb_store *store, const char *folder, double cpu, sb_error *error);
 /* Removes the marks that an earlier run left in the folder. */
 sb_status sb_run_forget(const char *folder, sb_error *error);
