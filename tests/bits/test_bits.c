@@ -149,22 +149,20 @@ static void check_scene(size_t s)
 
 static void scene_has_its_bits(void **state)
 {
-    check_scene((size_t) * (const int *)*state);
+    const size_t *row = *state;
+    check_scene(*row);
 }
-
-#define TEST(scene, row)                                                                                               \
-    {                                                                                                                  \
-        .name = scene, .test_func = scene_has_its_bits, .initial_state = &(int)                                        \
-        {                                                                                                              \
-            row                                                                                                        \
-        }                                                                                                              \
-    }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {TEST("column", 0), TEST("boundary_particles", 1), TEST("explicit_steps", 2),
-                                       TEST("plant", 3)};
-    _Static_assert(sizeof tests / sizeof *tests == sizeof scenes / sizeof *scenes, "each scene is tested");
+    enum { ROWS = sizeof scenes / sizeof *scenes };
+    struct CMUnitTest tests[ROWS];
+    size_t rows[ROWS];
     if (!is_available()) return 77; /* the processor does not have this instruction set */
+    for (size_t s = 0; s < ROWS; s++) {
+        rows[s] = s;
+        tests[s] =
+            (struct CMUnitTest){.name = scenes[s].name, .test_func = scene_has_its_bits, .initial_state = &rows[s]};
+    }
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

@@ -157,7 +157,8 @@ static void test_subjects_have_spacings_and_errors(void **state)
     }
 }
 
-/* Fewer choices or spacings, or another reference, can be selected; only runs that are compared with it have one. */
+/* Fewer choices or spacings, or another spacing of the reference, are selected. There is a reference only if runs are
+   compared with it. */
 static void test_part_of_runs_can_be_selected(void **state)
 {
     (void)state;
