@@ -23,7 +23,7 @@ typedef struct sb_step_report {
     uint64_t left_domain;       /* particles that left through open sides so far */
     uint64_t lost;              /* particles that passed a wall side of the domain so far */
     size_t foam[SB_FOAM_KINDS]; /* particles of each kind */
-    double momentum_imbalance;  /* of this step: |sum m a + sum F on bodies - M g| / sum m |a| */
+    double momentum_imbalance;  /* of this step: |sum m a + sum F on bodies - M g| / max(sum m |a|, M g) */
 } sb_step_report;
 
 #endif

@@ -3,6 +3,8 @@
 #include "sim/exchange/exchange.h"
 #include "sim/sea/strip.h"
 
+#include <math.h>
+
 /* Sum of the forces (N) on all bodies, and their power (W) on the moving bodies. */
 typedef struct body_sums {
     sb_vec3 force;
@@ -63,7 +65,9 @@ void sb_ledger_close(sb_sim *sim)
     const sb_vec3 gain = sb_scale(sb_vec(s.gain[0], s.gain[1], s.gain[2]), m);
     sb_vec3 off = sb_madd(sb_add(gain, sim->work.stress_gain), dt, sb_add(bodies.force, sb_vec(0, 0, weight)));
     off = sb_sub(sb_sub(off, held), sim->work.sponge_gain);
-    sim->report.momentum_imbalance = s.size > 0 ? sb_norm(off) / (m * s.size) : 0;
+    /* The accelerations of water at rest are rounding: its weight is the measure then. */
+    const double measure = fmax(m * s.size, dt * weight);
+    sim->report.momentum_imbalance = measure > 0 ? sb_norm(off) / measure : 0;
 }
 
 /* Energy of particles [first, end), J, over all domains. */
