@@ -71,6 +71,7 @@ typedef struct sb_numerics {
     double stress_correction;    /* fraction of the deviatoric particle-packing stress that is removed; 0: off */
     double stress_memory;        /* time after which stress counts as steady, in sqrt(D/g); 0: never */
     double density_diffusion;    /* delta of wcsph; 0: term is off */
+    double hyperviscosity;       /* kappa; 0: term is off */
     double artificial_viscosity; /* alpha of Monaghan's viscosity; 0: term is off */
     double wall_friction;        /* sigma; 0: term is off */
     sb_wall_form walls;

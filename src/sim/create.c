@@ -56,6 +56,7 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
         .wall_lists = n->walls != SB_WALLS_IMAGES,
         .wall_body = n->walls == SB_WALLS_IMAGES && (shear || n->wall_friction > 0),
         .sea = sb_scene_has_sea(scene),
+        .hyperviscosity = n->hyperviscosity > 0 && scene->fluid.gravity > 0 && !wcsph,
         .surface_tension = scene->fluid.surface_tension > 0,
         .sponge = has_sponge(scene, SB_SPONGE_DAMPING),
         .viscous_sponge = has_sponge(scene, SB_SPONGE_VISCOUS),

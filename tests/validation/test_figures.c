@@ -92,28 +92,6 @@ static void test_worst_seed_decides(void **state)
     for (int i = 0; i <= SEEDS; i++) sb_figures_free(&runs[i].figures);
 }
 
-/* The lattice sum as an integral over shells, h = 1. */
-static double continuum(const sb_kernel *kernel, int dimension)
-{
-    enum { SHELLS = 4000 };
-    double sum = 0;
-    for (int i = 0; i < SHELLS; i++) {
-        double r = (i + 0.5) / SHELLS, area = dimension == 2 ? 2 * M_PI * r : 4 * M_PI * r * r;
-        sum -= area / SHELLS * r * r * r * sb_kernel_slope(kernel, dimension, 1, r) / (r * r + 0.01);
-    }
-    return sum / dimension;
-}
-
-static void test_lattice_sums_converge_to_continuum(void **state)
-{
-    (void)state;
-    for (size_t i = 0; sb_kernels[i]; i++)
-        for (int d = 2; d <= 3; d++)
-            assert_near(sb_theory_lattice_share(sb_kernels[i], d, 16), continuum(sb_kernels[i], d), 1e-3);
-    assert_near(sb_theory_lattice_share(sb_kernel_find("cubic"), 2, 2), 0.9804, 1e-4);
-    assert_near(sb_theory_lattice_share(sb_kernel_find("cubic"), 3, 2), 0.9915, 1e-4);
-}
-
 /* Deep water: 1 - (k a)^2/8; the shift vanishes at k h = 1.07 (depth 0.17 of the length). */
 static void test_standing_wave_frequency_shift(void **state)
 {
@@ -129,7 +107,6 @@ int main(void)
         cmocka_unit_test(test_errors_and_limits),
         cmocka_unit_test(test_band_error_is_from_nearer_edge),
         cmocka_unit_test(test_worst_seed_decides),
-        cmocka_unit_test(test_lattice_sums_converge_to_continuum),
         cmocka_unit_test(test_standing_wave_frequency_shift),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

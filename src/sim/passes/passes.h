@@ -30,10 +30,10 @@ typedef struct sb_passes {
     const char *name;
     /* Computes lists, groups' runs, density, wall vector and diagonal, and for the density correction water_squared. */
     sb_status (*neighbours)(sb_sim *sim, sb_error *error);
-    /* strain_xx and strain: E_i = c (1 - M_i/t_i) of sim/terms/stress_correction.h. */
-    void (*strain)(sb_sim *sim);
-    /* stress_xx and stress: the mean of E over neighbours and images. Records carry strain_xx. */
-    void (*mean_strain)(sb_sim *sim);
+    /* deviator_xx and deviator: D_i of sim/terms/stress_correction.h. Records carry q of the last step. */
+    void (*deviator)(sb_sim *sim);
+    /* stress_xx and stress: the mean of D over neighbours and images. Records carry deviator_xx. */
+    void (*mean_deviator)(sb_sim *sim);
     /* corrected: the velocity after the correction, and stress_force. Records carry stress_xx. Returns 0,
        or -1 without memory. */
     int (*correct)(sb_sim *sim);
@@ -42,6 +42,8 @@ typedef struct sb_passes {
     /* predicted, wall_drag and wall_body: v* = v + dt (g + viscosity + drag). Records carry the density if viscous->on.
      */
     sb_status (*forces)(sb_sim *sim, const sb_viscous *viscous, const sb_wall_drag *law, sb_error *error);
+    /* out += factor sum_j m (f_i - f_j) |W'_ij|/r_ij over particles, without images. */
+    void (*differences)(sb_sim *sim, const sb_f4 *field, float factor, sb_f4 *out);
     /* acceleration = G argument: a_i = -[sum_j m (q_i + q_j) grad W_ij + q_i B_i]. Records carry the argument. */
     void (*accelerate)(sb_sim *sim);
     /* out = factor [sum_j m (f_i - f_j) . grad W_ij + f_i . B_i]. */

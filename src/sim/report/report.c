@@ -36,6 +36,9 @@ void sb_report_skipped(sb_sim *sim)
     size_t s = 0;
     if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0) && !sim->needs.eddy)
         skip(sim, &s, "viscosity: both coefficients are 0, no pass over particle pairs", 1, 0);
+    if (!sim->needs.hyperviscosity)
+        skip(sim, &s, "hyperviscosity: off, no passes over particle pairs for it", 2,
+             sb_work_cost(&sim->needs, "differences"));
     if (!sim->needs.stress_correction)
         skip(sim, &s, "stress correction: off, no passes over particle pairs for it", CORRECTION_PASSES, 0);
     if (!sim->needs.turbulence)

@@ -50,6 +50,7 @@ sb_constants sb_constants_of(const sb_scene *scene, const sb_model *model)
         .surface_tension = (float)scene->fluid.surface_tension,
         .full_diagonal = (float)sb_lattice_diagonal(scene, mass),
         .spectrum = sb_lattice_spectrum(scene),
+        .lattice_slopes = (float)sb_lattice_slopes(scene, mass),
         .bulk_deficit = (float)(scene->fluid.density * (1 - sb_lattice_density(scene))),
         .surface_deficit =
             (float)(sb_lattice_truncation(scene) * pow(scene->numerics.support * dr, 2) / scene->fluid.density),

@@ -17,6 +17,7 @@ typedef struct sb_constants {
     float viscosity;          /* m^2/s, physical */
     float surface_tension;    /* N/m; 0: off */
     float full_diagonal;      /* |a_ii|/dt^2 of a full lattice: the scale of a_ii */
+    float lattice_slopes;     /* kg/m^5 */
     float bulk_deficit;       /* kg/m^3, deficit of a full lattice's density sum */
     float surface_deficit;    /* further deficit of a flat surface's first layer, over |sum_j m grad W|^2 there */
     double spectrum;          /* largest eigenvalue of D^-1 A on a full lattice */

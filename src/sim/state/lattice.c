@@ -44,6 +44,19 @@ double sb_lattice_diagonal(const sb_scene *scene, double mass)
     return sum;
 }
 
+double sb_lattice_slopes(const sb_scene *scene, double mass)
+{
+    const double dr = scene->resolution, h = scene->numerics.support * dr;
+    double sum = 0;
+    star s;
+    make_star(scene, &s);
+    for (size_t j = 0; j < s.count; j++) {
+        const double r = dr * sb_norm(s.place[j]);
+        sum += mass * fabs(sb_kernel_slope(scene->numerics.kernel, scene->dimensions, h, r)) / r;
+    }
+    return sum;
+}
+
 static double response(const star *s, sb_vec3 k)
 {
     sb_vec3 g = {0};

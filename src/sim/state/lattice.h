@@ -10,6 +10,9 @@ double sb_lattice_diagonal(const sb_scene *scene, double mass);
 /* Largest eigenvalue of D^-1 A: over all wave vectors k, |sum_j grad W sin(k.x_j)|^2 / sum_j |grad W|^2. */
 double sb_lattice_spectrum(const sb_scene *scene);
 
+/* sum_j m |W'|/r, kg/m^5. */
+double sb_lattice_slopes(const sb_scene *scene, double mass);
+
 /* Density of the lattice over the rest density: sum_j V W. */
 double sb_lattice_density(const sb_scene *scene);
 

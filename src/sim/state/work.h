@@ -15,7 +15,7 @@ typedef enum sb_phase {
     SB_PHASE_GHOSTS,
     SB_PHASE_NEIGHBOURS,
     SB_PHASE_DENSITY_CORRECTION,
-    SB_PHASE_STRAIN, /* stress correction: strain, stress, velocities */
+    SB_PHASE_DEVIATOR, /* stress correction: deviators, their means, velocities */
     SB_PHASE_STRESS,
     SB_PHASE_CORRECTED,
     SB_PHASE_TURBULENCE,
@@ -63,7 +63,7 @@ typedef struct sb_cell_sum {
     sb_f4 rest, more;
 } sb_cell_sum;
 
-/* A particle's strain or stress without trace: xx, and yy, xy, xz, yz. In views that neighbours read xx is carried by
+/* A particle's stress without trace: xx, and yy, xy, xz, yz. In views that neighbours read xx is carried by
    the records (sb_pressure_load). */
 typedef struct sb_work {
     sb_lists pairs; /* with fluid particles, and with boundary particles */
@@ -81,8 +81,9 @@ typedef struct sb_work {
     float *water_squared; /* |sum_j m grad W_ij|^2 */
     float *diagonal;      /* -a_ii > 0 for q as unknown; over dt^2 before the stage pressure; 0: no pressure here */
 
-    float *strain_xx, *stress_xx;
-    sb_f4 *strain, *stress;
+    float *last_unknown; /* q of the last step, Pa m^6/kg^2 */
+    float *deviator_xx, *stress_xx;
+    sb_f4 *deviator, *stress;
     sb_cell_sum *cell_sum; /* by cell: owned, of the halo, of images (sim/terms/cell_mean.h) */
     size_t cell_sum_capacity;
     double *node; /* SB_TENSION_VALUES per node of a grid around the water; NULL without surface tension */
@@ -94,6 +95,7 @@ typedef struct sb_work {
     uint32_t *wall_body; /* the body of all boundary particles around a particle, or SB_WALL_NONE, SB_WALL_SEVERAL; NULL
                             with lists of them, or without drag */
     sb_f4 *pull;         /* m/s^2, by surface tension (sim/terms/surface_tension.h); NULL without it */
+    sb_f4 *differences;  /* m/s, L v of hyperviscosity; NULL without it */
     sb_f4 *predicted;    /* m/s, v*: the velocity before the pressure */
 
     float *source;       /* b_i, kg/m^3 */

@@ -6,6 +6,7 @@
 #include "sim/sea/strip.h"
 #include "sim/step/stages.h"
 #include "sim/terms/density_correction.h"
+#include "sim/terms/hyperviscosity.h"
 #include "sim/terms/sponge.h"
 #include "sim/terms/stress_correction.h"
 #include "sim/terms/surface_tension.h"
@@ -47,13 +48,15 @@ static const stage stages[] = {
     /* particles of the strips of given water */
     {"held", SB_PHASES, sb_stage_held, SB_NEEDS(sea), IMPLICIT},
     /* removes deviatoric stress of the particle packing */
-    {"stress_correction", SB_PHASE_STRAIN, sb_stage_stress_correction, SB_NEEDS(stress_correction), IMPLICIT},
+    {"stress_correction", SB_PHASE_DEVIATOR, sb_stage_stress_correction, SB_NEEDS(stress_correction), IMPLICIT},
     /* eddy viscosity from the strain rate */
     {"turbulence", SB_PHASE_TURBULENCE, sb_stage_turbulence, SB_NEEDS(turbulence), BOTH},
     /* adds the viscosity of sponges */
     {"viscous_sponge", SB_PHASE_TURBULENCE, sb_stage_viscous_sponge, SB_NEEDS(viscous_sponge), BOTH},
     /* v* = v + dt (g + viscosity + friction) */
     {"forces", SB_PHASE_FORCES, sb_stage_forces, SB_ALWAYS, BOTH},
+    /* v* += dt (damping of motion of the scale of the spacing) */
+    {"hyperviscosity", SB_PHASES, sb_stage_hyperviscosity, SB_NEEDS(hyperviscosity), IMPLICIT},
     /* v* += dt (surface tension) */
     {"surface_tension", SB_PHASES, sb_stage_surface_tension, SB_NEEDS(surface_tension), IMPLICIT},
     /* slows water down */

@@ -1,7 +1,8 @@
 /* The steady part of the stress correction (docs/method.md, M15g; docs/decisions/0060). Water at rest is in balance
    with the stress of its particle packing, and its correction would only stir it. Each particle therefore keeps the
    mean of its S_i over the time stress_memory sqrt(D/g), and what is corrected is the deviation from it. Waves pass in
-   less time, so that nearly all of their stress is corrected. */
+   less time, so that nearly all of their stress is corrected. A run begins with the S_i of the settled water as its
+   mean (docs/decisions/0095). */
 #ifndef SB_SIM_STEADY_STRESS_H
 #define SB_SIM_STEADY_STRESS_H
 

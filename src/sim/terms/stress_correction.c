@@ -4,6 +4,7 @@
 #include "sim/exchange/sums.h"
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
+#include "sim/sea/strip.h"
 #include "sim/step/ledger.h"
 #include "sim/step/stages.h"
 #include "sim/terms/cell_mean.h"
@@ -27,22 +28,31 @@ static double sum_changes(sb_sim *sim, const sb_group *group, double terms[SB_SU
     return -fast;
 }
 
-/* S_i = q_i <E>_i, without its steady part. Returns 0, or -1 without memory. */
+/* D_i, from the q of the last step; 0 in strips of given water, beyond whose outer edges pairs are missing that have
+   pressure. */
+static void find_deviators(sb_sim *sim)
+{
+    sb_work *w = &sim->work;
+    const size_t n = sim->state.n;
+#pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < n; i++) w->last_unknown[i] = sb_stress_unknown(sim, i);
+    sb_pressure_load_begin(sim, w->last_unknown);
+    sim->passes->deviator(sim);
+    for (size_t k = 0; sim->strip && k < sim->strip->held_count; k++) {
+        w->deviator_xx[sim->strip->held[k].particle] = 0;
+        w->deviator[sim->strip->held[k].particle] = (sb_f4){0};
+    }
+}
+
+/* S_i = <D>_i, without its steady part. Returns 0, or -1 without memory. */
 static int find_stress(sb_sim *sim)
 {
     sb_work *w = &sim->work;
-    sim->passes->mean_strain(sim);
+    sim->passes->mean_deviator(sim);
     for (int mean = 0; mean < MEANS; mean++) {
         sb_refresh(sim, w->stress);
         sb_pressure_load(sim, w->stress_xx);
         if (sb_cell_mean(sim, w->stress_xx, w->stress) != 0) return -1;
-    }
-    const size_t n = sim->state.n;
-#pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < n; i++) {
-        const float q = sb_stress_unknown(sim, i);
-        w->stress_xx[i] *= q;
-        w->stress[i] *= sb_splat(q);
     }
     sb_steady_stress_take(sim);
     return 0;
@@ -58,11 +68,11 @@ static sb_status diverged(const sb_sim *sim, uint32_t id, sb_error *error)
 
 sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
 {
-    sim->passes->strain(sim);
-    sb_refresh(sim, sim->work.strain);
-    sb_pressure_load_begin(sim, sim->work.strain_xx);
+    find_deviators(sim);
+    sb_refresh(sim, sim->work.deviator);
+    sb_pressure_load_begin(sim, sim->work.deviator_xx);
     sb_work_enter(&sim->work, SB_PHASE_STRESS);
-    if (find_stress(sim) != 0) return sb_fail_memory(error, "means of the strain of the particle packing");
+    if (find_stress(sim) != 0) return sb_fail_memory(error, "means of the stress of the particle packing");
     sb_refresh(sim, sim->work.stress);
     sb_pressure_load(sim, sim->work.stress_xx);
     sb_work_enter(&sim->work, SB_PHASE_CORRECTED);

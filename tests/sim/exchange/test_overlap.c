@@ -88,10 +88,10 @@ static sb_status forces(sb_sim *sim, const sb_viscous *viscous, const sb_wall_dr
     return sb_passes_choose()->forces(sim, viscous, law, error);
 }
 
-static void mean_strain(sb_sim *sim)
+static void mean_deviator(sb_sim *sim)
 {
     watch(sim);
-    sb_passes_choose()->mean_strain(sim);
+    sb_passes_choose()->mean_deviator(sim);
 }
 
 static void run(sb_ranks *ranks, void *context)
@@ -103,7 +103,7 @@ static void run(sb_ranks *ranks, void *context)
     watched.accelerate = accelerate;
     watched.diverge = diverge;
     watched.forces = forces;
-    watched.mean_strain = mean_strain;
+    watched.mean_deviator = mean_deviator;
     passes = early = ahead = begun = 0;
     omp_set_num_threads(1);
     sb_status status = sb_sim_create(&j->made->scene, &j->made->model, ranks, &sim, &j->error[rank]);

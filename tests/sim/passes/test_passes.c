@@ -108,7 +108,20 @@ typedef struct row {
     result result[4];
 } row;
 
-enum { NEIGHBOURS, STRAIN, MEAN_STRAIN, CORRECT, STRAIN_RATE, FORCES, ACCELERATE, DIVERGE, VIRIAL, BODIES, PASSES };
+enum {
+    NEIGHBOURS,
+    DEVIATOR,
+    MEAN_DEVIATOR,
+    CORRECT,
+    STRAIN_RATE,
+    FORCES,
+    DIFFERENCES,
+    ACCELERATE,
+    DIVERGE,
+    VIRIAL,
+    BODIES,
+    PASSES
+};
 
 /* Sums of 80 floats. The roots of slopes are rounded to 15 bits, and one that is half way may round to the other side.
  */
@@ -116,11 +129,12 @@ static const double SUM = 3e-6, ROOTS = 1e-4;
 
 static const row rows[PASSES] = {
     [NEIGHBOURS] = {"neighbours", {{"density", SUM}, {"wall", SUM}, {"diagonal", ROOTS}}},
-    [STRAIN] = {"strain", {{"strain_xx", SUM}, {"strain", SUM}}},
-    [MEAN_STRAIN] = {"mean_strain", {{"stress_xx", SUM}, {"stress", SUM}}},
+    [DEVIATOR] = {"deviator", {{"deviator_xx", SUM}, {"deviator", SUM}}},
+    [MEAN_DEVIATOR] = {"mean_deviator", {{"stress_xx", SUM}, {"stress", SUM}}},
     [CORRECT] = {"correct", {{"corrected", SUM}}},
     [STRAIN_RATE] = {"strain_rate", {{"eddy", SUM}}},
     [FORCES] = {"forces", {{"predicted", SUM}, {"wall_drag", SUM}}},
+    [DIFFERENCES] = {"differences", {{"predicted", SUM}}},
     [ACCELERATE] = {"accelerate", {{"acceleration", SUM}}},
     [DIVERGE] = {"diverge", {{"source", SUM}}},
     [VIRIAL] = {"virial", {{"virial", SUM}}},
@@ -148,11 +162,11 @@ static void run(const sb_passes *form, int pass, sb_sim *sim, double *force)
     case NEIGHBOURS:
         assert_int_equal(form->neighbours(sim, &error), SB_OK);
         break;
-    case STRAIN:
-        form->strain(sim);
+    case DEVIATOR:
+        form->deviator(sim);
         break;
-    case MEAN_STRAIN:
-        form->mean_strain(sim);
+    case MEAN_DEVIATOR:
+        form->mean_deviator(sim);
         break;
     case CORRECT:
         assert_int_equal(form->correct(sim), 0);
@@ -163,6 +177,9 @@ static void run(const sb_passes *form, int pass, sb_sim *sim, double *force)
         break;
     case FORCES:
         assert_int_equal(form->forces(sim, &viscous, &law, &error), SB_OK);
+        break;
+    case DIFFERENCES:
+        form->differences(sim, sim->state.velocity, 0.5f, sim->work.predicted);
         break;
     case ACCELERATE:
         form->accelerate(sim);
@@ -190,14 +207,17 @@ static void set_input(int pass, sb_sim *sim)
     sb_work *w = &sim->work;
     for (size_t i = 0; i < n; i++) {
         const float a = (float)sb_random(11, i), b = (float)sb_random(12, i) - 0.5f, c = (float)sb_random(13, i) - 0.5f;
-        if (pass == MEAN_STRAIN) w->strain_xx[i] = b, w->strain[i] = (sb_f4){c, a, b, c};
+        if (pass == DEVIATOR) w->last_unknown[i] = 1e-3f * a;
+        if (pass == MEAN_DEVIATOR) w->deviator_xx[i] = b, w->deviator[i] = (sb_f4){c, a, b, c};
         if (pass == CORRECT) w->stress_xx[i] = b, w->stress[i] = (sb_f4){c, a, b, c};
         if (pass == FORCES) w->eddy[i] = 0.01f * a, w->wall_drag[i] = (sb_f4){0};    /* set beside walls only */
         if (pass == FORCES && w->image_push) w->image_push[i] = (sb_f4){a, c, b, 0}; /* its memory becomes wall_drag */
+        if (pass == DIFFERENCES) w->predicted[i] = (sb_f4){0};
         if (pass == ACCELERATE || pass == VIRIAL || pass == BODIES) w->unknown[i] = 1e-3f * a;
         if (pass == BODIES) w->end_velocity[i] = sim->state.velocity[i] + (sb_f4){b, 0, c, 0};
     }
-    if (pass == MEAN_STRAIN) sb_refresh(sim, w->strain), sb_pressure_load(sim, w->strain_xx);
+    if (pass == DEVIATOR) sb_pressure_load(sim, w->last_unknown);
+    if (pass == MEAN_DEVIATOR) sb_refresh(sim, w->deviator), sb_pressure_load(sim, w->deviator_xx);
     if (pass == CORRECT) sb_refresh(sim, w->stress), sb_pressure_load(sim, w->stress_xx);
     if (pass == FORCES) sb_refresh_values(sim, w->eddy), sb_pressure_load(sim, w->density);
     if (pass == ACCELERATE) sb_pressure_load(sim, w->unknown);
@@ -265,7 +285,7 @@ static void compare_form(const sb_passes *form)
                 assert_non_null(forces[k]);
             }
             /* The reference does not search images. */
-            for (int pass = kind < IMAGES ? NEIGHBOURS : STRAIN; pass < PASSES; pass++) {
+            for (int pass = kind < IMAGES ? NEIGHBOURS : DEVIATOR; pass < PASSES; pass++) {
                 printf("%s, %dD%s, %s\n", form->name, dimensions, kinds[kind], rows[pass].name);
                 assert_int_equal(tank_prepare(w.sim, 0.01), 0); /* fields share memory */
                 compare_pass(form, pass, w.sim, forces);
@@ -298,8 +318,8 @@ static void all_rows_are_there(void **state)
     for (size_t f = 0; f < sizeof forms / sizeof *forms; f++) {
         const sb_passes *p = forms[f];
         if (!p) continue;
-        assert_true(p->name && p->neighbours && p->strain && p->mean_strain && p->correct && p->strain_rate &&
-                    p->forces);
+        assert_true(p->name && p->neighbours && p->deviator && p->mean_deviator && p->correct && p->strain_rate &&
+                    p->differences && p->forces);
         assert_true(p->accelerate && p->diverge && p->virial && p->bodies);
     }
     assert_ptr_not_equal(sb_passes_choose(), &sb_passes_reference);

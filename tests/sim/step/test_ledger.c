@@ -229,9 +229,10 @@ static void entries_are_the_works_of_their_terms(void **state)
         /* The pressure's entry is a difference of its works on water and bodies. */
         assert_near(entered[k], expected[k], k == 2 ? 1e-6 * largest : 1e-5 * fabs(expected[k]));
     }
-    /* The residual is a difference of float sums as large as the forces on bodies. */
+    /* The residual is a difference of float sums as large as the forces on bodies: after 20 to 35 steps this is off by
+       0.1 to 3e-6 of the largest entry. */
     printf("pressure by (M23b) %.9g J\n", w.pressure_by_error);
-    assert_near(entered[2], w.pressure_by_error, 1e-6 * largest);
+    assert_near(entered[2], w.pressure_by_error, 5e-6 * largest);
     assert_near(now->contact, l.contact, 0);
     twin_free(&before);
     sb_sim_destroy(sim);
@@ -260,6 +261,7 @@ static void a_falling_drop_has_its_known_entries(void **state)
     t.scene.numerics.time_step_max = 0.002;
     t.scene.numerics.density = SB_DENSITY_SUMMED; /* with the density correction pressure alone stops a drop */
     t.scene.numerics.artificial_viscosity = 0;
+    t.scene.numerics.hyperviscosity = 0;
     t.scene.numerics.wall_friction = 0;
     t.scene.fluid.viscosity = 0; /* no wall shear, which would be entered as friction */
     sb_sim *sim = tank_sim(&t);

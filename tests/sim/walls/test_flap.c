@@ -18,6 +18,8 @@ static const char text[] = "dimensions: 2\nresolution: 0.1\nduration: 60\n"
                            " period: 2.2985, ramp: 2.3%s}\n"
                            "sponges:\n  - {name: beach, side: x_max, length: 6.3, period: 2.2985, depth: 1}\n";
 
+enum { SEEDS = 3 };
+
 typedef struct flume {
     sb_scene scene;
     sb_model model;
@@ -34,11 +36,12 @@ static sb_status read_scene(const char *more, sb_scene *scene, sb_error *error)
     return sb_scene_read(path, NULL, NULL, 0, scene, error);
 }
 
-static void make(flume *f, const char *more)
+static void make(flume *f, const char *more, unsigned seed)
 {
     sb_error error = {0};
     *f = (flume){0};
     if (read_scene(more, &f->scene, &error) != SB_OK) fail_msg("%s", error.text);
+    f->scene.numerics.seed = seed;
     if (sb_model_build(&f->scene, &f->model, &error) != SB_OK) fail_msg("%s", error.text);
     if (sb_sim_create(&f->scene, &f->model, NULL, &f->sim, &error) != SB_OK) fail_msg("%s", error.text);
     if (sb_sim_settle(f->sim, &error) != SB_OK) fail_msg("%s", error.text);
@@ -79,21 +82,26 @@ static double height_of_waves(flume *f, double *imbalance)
     return 4 * cabs(sum) / weight;
 }
 
+/* At 1.2 particles per height a single run is off by up to 3 %: means over seeds are compared. */
 static void waves_have_the_height_of_theory(void **state)
 {
     (void)state;
-    double height[2];
+    double height[2] = {0};
     for (int flap = 0; flap <= 1; flap++) {
-        flume f;
-        double imbalance = 0;
-        make(&f, flap ? ", motion: flap" : "");
-        height[flap] = height_of_waves(&f, &imbalance) / 0.12;
-        printf("%s: %.3f of the height of linear theory; momentum %.2g; lost %llu\n", flap ? "flap" : "piston",
-               height[flap], imbalance, (unsigned long long)sb_sim_report(f.sim)->lost);
-        assert_true(imbalance < 1e-5 && sb_sim_report(f.sim)->lost == 0);
-        assert_true(fabs(height[flap] - 1) < 0.06);
-        free_flume(&f);
+        for (unsigned seed = 1; seed <= SEEDS; seed++) {
+            flume f;
+            double imbalance = 0;
+            make(&f, flap ? ", motion: flap" : "", seed);
+            const double one = height_of_waves(&f, &imbalance) / 0.12;
+            printf("%s, seed %u: %.3f of the height of linear theory; momentum %.2g; lost %llu\n",
+                   flap ? "flap" : "piston", seed, one, imbalance, (unsigned long long)sb_sim_report(f.sim)->lost);
+            assert_true(imbalance < 1e-5 && sb_sim_report(f.sim)->lost == 0);
+            assert_true(fabs(one - 1) < 0.06);
+            height[flap] += one / SEEDS;
+            free_flume(&f);
+        }
     }
+    printf("piston %.3f, flap %.3f\n", height[0], height[1]);
     assert_true(fabs(height[1] - height[0]) < 0.03);
 }
 
@@ -101,7 +109,7 @@ static void rows_follow_the_hinge(void **state)
 {
     (void)state;
     flume f;
-    make(&f, ", motion: flap");
+    make(&f, ", motion: flap", 1);
     assert_int_equal(f.model.bodies[0].plates, 8);
     assert_true(f.model.bodies[0].report && !f.model.bodies[1].report);
     /* Still water: 1000 g/2 N, acting a third of the depth above the bed. */

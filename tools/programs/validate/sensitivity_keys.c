@@ -23,7 +23,7 @@ const sb_sensitivity_key sb_sensitivity_keys[] = {
     NUMBER(cfl, 1),
     NUMBER(time_step_factor, 10),
     NUMBER(stress_correction, 1),
-    NUMBER(artificial_viscosity, 10),
+    NUMBER(hyperviscosity, 1),
     NUMBER(wall_friction, 10),
     NUMBER(wall_spacing, 1.2),
     NUMBER(wall_offset, 2),

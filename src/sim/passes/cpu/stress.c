@@ -7,104 +7,69 @@
 #include "sim/passes/groups.h"
 #include "sim/terms/stress_correction.h"
 
-/* Sums over neighbours of slope x (x) x, quanta^2. */
+/* Sums over neighbours of slope (q_i + q_j) x (x) x. */
 typedef struct moments {
     float xx, yy, zz, xy, xz, yz;
+    float squares; /* slope x . x */
 } moments;
 
 SB_INLINE moments gather(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i)
 {
-    const sb_f4 self = sb_in_group(sim, group, i);
+    const sb_f4 self = sb_in_group(sim, group, i), own = sb_splat(self[3]);
     const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i], *end = four + sim->work.pairs.count[i];
-    sb_f4 xx = {0}, yy = {0}, zz = {0}, xy = {0}, xz = {0}, yz = {0};
+    sb_f4 xx = {0}, yy = {0}, zz = {0}, xy = {0}, xz = {0}, yz = {0}, squares = {0};
     for (; four < end; four++) {
         sb_prefetch(four);
-        const sb_four d = sb_transpose(self - *sb_at(around, four->place[0]), self - *sb_at(around, four->place[1]),
-                                       self - *sb_at(around, four->place[2]), self - *sb_at(around, four->place[3]));
-        const sb_f4 slope = sb_slopes(four), x = d.x * slope, y = d.y * slope;
-        xx += x * d.x, xy += x * d.y, xz += x * d.z;
-        yy += y * d.y, yz += y * d.z, zz += d.z * slope * d.z;
+        const sb_four at = sb_transpose(*sb_at(around, four->place[0]), *sb_at(around, four->place[1]),
+                                        *sb_at(around, four->place[2]), *sb_at(around, four->place[3]));
+        const sb_f4 alone = sb_slopes(four), slope = alone * (own + at.w);
+        const sb_f4 dx = sb_splat(self[0]) - at.x, dy = sb_splat(self[1]) - at.y, dz = sb_splat(self[2]) - at.z;
+        const sb_f4 x = dx * slope, y = dy * slope;
+        xx += x * dx, xy += x * dy, xz += x * dz;
+        yy += y * dy, yz += y * dz, zz += dz * slope * dz;
+        squares += (dx * dx + dy * dy + dz * dz) * alone;
     }
-    const sb_four a = sb_transpose(xx, yy, zz, xy), b = sb_transpose(xz, yz, (sb_f4){0}, (sb_f4){0});
+    const sb_four a = sb_transpose(xx, yy, zz, xy), b = sb_transpose(xz, yz, squares, (sb_f4){0});
     const sb_f4 p = a.x + a.y + a.z + a.w, q = b.x + b.y + b.z + b.w;
-    return (moments){p[0], p[1], p[2], p[3], q[0], q[1]};
+    return (moments){p[0], p[1], p[2], p[3], q[0], q[1], q[2]};
 }
 
-/* Over the groups of four [from, to) of the list of particle i. */
-SB_INLINE sb_stress_sums sum_slopes(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i,
-                                    size_t from, size_t to)
-{
-    const sb_f4 self = sb_in_group(sim, group, i);
-    const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i];
-    sb_f4 sum = {0};
-    float trace = 0;
-    for (size_t k = from; k < to; k++) {
-        const sb_f4 slope = sb_slopes(&four[k]);
-        for (size_t lane = 0; lane < 4; lane++) {
-            const sb_f4 d = self - *sb_at(around, four[k].place[lane]);
-            sum += (sb_f4){d[0], d[1], d[2], 1} * sb_splat(slope[lane]);
-            trace += sb_sum3(d * d) * slope[lane];
-        }
-    }
-    return (sb_stress_sums){sum[0], sum[1], sum[2], trace, sum[3]};
-}
-
-/* The c of particle i. */
-SB_INLINE float share_of(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i, float whole, float t)
-{
-    const float share = sb_stress_share(whole, t);
-    const size_t direct = sb_direct(&sim->work.pairs, i), count = sim->work.pairs.count[i];
-    if (share >= whole || direct == count) return share;
-    const sb_stress_sums images = sum_slopes(sim, group, around, i, direct, count);
-    sb_stress_sums all = sum_slopes(sim, group, around, i, 0, direct);
-    all.x += images.x, all.y += images.y, all.z += images.z;
-    all.trace += images.trace, all.weight += images.weight;
-    const float film = sb_stress_film_share(sim->constant.dimension, whole, t, all, images);
-    return film > share ? film : share;
-}
-
-/* E_i as strain_xx, and yy, xy, xz, yz as strain. */
+/* D_i as deviator_xx, and yy, xy, xz, yz as deviator. */
 SB_MULTIVERSION
-static void find_strain(sb_sim *sim, const sb_group *group, const void *arguments)
+static void find_deviator(sb_sim *sim, const sb_group *group, const void *arguments)
 {
     (void)arguments;
-    const float whole = (float)sim->scene->numerics.stress_correction;
     _Alignas(64) sb_f4 around[SB_AROUND_MAX];
     const bool flat = sim->constant.dimension == 2;
     const float part = flat ? 0.5f : 1 / 3.0f;
-    const float unit = -sim->work.pairs.unit * (float)sim->space.quantum / sim->constant.rest_density;
+    const float per = sim->work.pairs.unit * (float)sim->space.quantum / sim->constant.rest_density;
     sb_around(sim, group, around);
     for (size_t i = group->first; i < group->end; i++) {
-        sim->work.strain_xx[i] = 0;
-        sim->work.strain[i] = (sb_f4){0};
         const moments m = gather(sim, group, around, i);
         const float mean = part * (m.xx + m.yy + m.zz);
-        const float t = unit * mean;
-        const float share = share_of(sim, group, around, i, whole, t);
-        const float off = -share / mean;
-        if (!(share > 0)) continue;
-        sim->work.strain_xx[i] = share + off * m.xx;
-        sim->work.strain[i] = (sb_f4){flat ? 0 : share + off * m.yy, off * m.xy, off * m.xz, off * m.yz};
+        const float factor = 0.5f * per * sb_stress_factor(sim, -part * per * m.squares);
+        sim->work.deviator_xx[i] = factor * (m.xx - mean);
+        sim->work.deviator[i] = (sb_f4){flat ? 0 : m.yy - mean, m.xy, m.xz, m.yz} * sb_splat(factor);
     }
 }
 
-/* <E>_i over the particle, its neighbours and images, weighted by their slopes; that of the particle itself is the
+/* <D>_i over the particle, its neighbours and images, weighted by their slopes; that of the particle itself is the
    slope of a coincident one. */
 SB_MULTIVERSION
-static void average_strain(sb_sim *sim, const sb_group *group, const void *arguments)
+static void average_deviator(sb_sim *sim, const sb_group *group, const void *arguments)
 {
     (void)arguments;
     const float most = (float)SB_ROOT_MAX * (float)SB_ROOT_MAX;
     _Alignas(64) sb_f4 around[2 * SB_AROUND_MAX];
-    const bool any = sb_around_tensors(sim, group, sim->work.strain, around);
+    const bool any = sb_around_tensors(sim, group, sim->work.deviator, around);
     for (size_t i = group->first; i < group->end; i++) {
         sim->work.stress[i] = (sb_f4){0};
         sim->work.stress_xx[i] = 0;
         if (!any) continue;
         const sb_four_pairs *four = sim->work.pairs.four + sim->work.pairs.first[i],
                             *end = four + sim->work.pairs.count[i];
-        const sb_f4 own = {0, 0, 0, sim->work.strain_xx[i]};
-        sb_f8 even = sb_join(own, sim->work.strain[i]) * sb_splat8(most), odd = {0};
+        const sb_f4 own = {0, 0, 0, sim->work.deviator_xx[i]};
+        sb_f8 even = sb_join(own, sim->work.deviator[i]) * sb_splat8(most), odd = {0};
         sb_f4 weights = {most};
         for (; four < end; four++) {
             const sb_f4 slope = sb_slopes(four);
@@ -159,14 +124,14 @@ SB_INLINE void correct_with(sb_sim *sim, const sb_group *group, const sb_f4 *aro
     }
 }
 
-void sb_cpu_strain(sb_sim *sim)
+void sb_cpu_deviator(sb_sim *sim)
 {
-    sb_each_group(sim, find_strain, NULL);
+    sb_each_group(sim, find_deviator, NULL);
 }
 
-void sb_cpu_mean_strain(sb_sim *sim)
+void sb_cpu_mean_deviator(sb_sim *sim)
 {
-    sb_each_group(sim, average_strain, NULL);
+    sb_each_group(sim, average_deviator, NULL);
 }
 
 /* Adds the reactions of walls to the correction of a group's particles by images. */

@@ -170,3 +170,30 @@ sb_status sb_plain_forces(sb_sim *sim, const sb_viscous *viscous, const sb_wall_
     sb_each_group(sim, forces_group, &(all_terms){viscous, law});
     return SB_OK;
 }
+
+typedef struct between {
+    const sb_f4 *field;
+    float factor;
+    sb_f4 *out;
+} between;
+
+static void differences_group(sb_sim *sim, const sb_group *group, const void *arguments)
+{
+    const between *of = arguments;
+    sb_indices around;
+    sb_indices_of(sim, group, &around);
+    for (size_t i = group->first; i < group->end; i++) {
+        sb_vec3 sum = {0};
+        for (size_t k = 0; k < sb_direct_count(sim, i); k++) {
+            const sb_one_pair p = sb_pair_at(sim, &around, i, k);
+            const sb_vec3 off = sb_sub(sb_vector_of(of->field[i]), sb_vector_of(of->field[p.other]));
+            sum = sb_madd(sum, -p.slope / sim->space.quantum * (double)of->factor, off);
+        }
+        of->out[i] += (sb_f4){(float)sum.x, (float)sum.y, (float)sum.z, 0};
+    }
+}
+
+void sb_plain_differences(sb_sim *sim, const sb_f4 *field, float factor, sb_f4 *out)
+{
+    sb_each_group(sim, differences_group, &(between){field, factor, out});
+}

@@ -111,8 +111,9 @@ static void virial(sb_sim *sim)
 const sb_passes sb_passes_reference = {
     .name = "reference",
     .neighbours = sb_plain_neighbours,
-    .strain = sb_plain_strain,
-    .mean_strain = sb_plain_mean_strain,
+    .deviator = sb_plain_deviator,
+    .mean_deviator = sb_plain_mean_deviator,
+    .differences = sb_plain_differences,
     .correct = sb_plain_correct,
     .strain_rate = sb_plain_strain_rate,
     .forces = sb_plain_forces,

@@ -9,55 +9,40 @@
 /* A symmetric tensor without trace: xx, yy, xy, xz, yz. */
 enum { XX, YY, XY, XZ, YZ, PARTS };
 
-/* The c of particle i. */
-static float share_of(const sb_sim *sim, const sb_indices *around, size_t i, float whole, float t)
+/* The q of particle i, which its record carries. */
+static double unknown_of(const sb_sim *sim, size_t i)
 {
-    const float share = sb_stress_share(whole, t);
-    double all[5] = {0}, images[5] = {0};
-    for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
-        const sb_one_pair p = sb_pair_at(sim, around, i, k);
-        const double part[5] = {p.slope * p.offset.x, p.slope * p.offset.y, p.slope * p.offset.z,
-                                p.slope * sb_dot(p.offset, p.offset), p.slope};
-        for (int c = 0; c < 5; c++) {
-            all[c] += part[c];
-            if (k >= sb_direct_count(sim, i)) images[c] += part[c];
-        }
-    }
-    const sb_stress_sums whole_sums = {(float)all[0], (float)all[1], (float)all[2], (float)all[3], (float)all[4]};
-    const sb_stress_sums image_sums = {(float)images[0], (float)images[1], (float)images[2], (float)images[3],
-                                       (float)images[4]};
-    return fmaxf(share, sb_stress_film_share(sim->constant.dimension, whole, t, whole_sums, image_sums));
+    return (double)sb_carried_value(sim->state.position[i]);
 }
 
-static void strain_group(sb_sim *sim, const sb_group *group, const void *arguments)
+static void deviator_group(sb_sim *sim, const sb_group *group, const void *arguments)
 {
     (void)arguments;
     sb_indices around;
     sb_indices_of(sim, group, &around);
     const int d = sim->constant.dimension;
-    const double whole = sim->scene->numerics.stress_correction;
+    const double per = sim->space.quantum / (double)sim->constant.rest_density;
     for (size_t i = group->first; i < group->end; i++) {
-        double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
+        double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0, squares = 0;
         for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
             const sb_one_pair p = sb_pair_at(sim, &around, i, k);
-            const double factor = -p.slope * sim->space.quantum / (double)sim->constant.rest_density;
+            const double factor = per * p.slope * (unknown_of(sim, i) + unknown_of(sim, p.other)) / 2;
             const sb_vec3 x = p.offset;
             xx += factor * x.x * x.x, xy += factor * x.x * x.y, xz += factor * x.x * x.z;
             yy += factor * x.y * x.y, yz += factor * x.y * x.z, zz += factor * x.z * x.z;
+            squares -= per * p.slope * sb_dot(x, x);
         }
-        const double mean = (xx + yy + zz) / d, share = (double)share_of(sim, &around, i, (float)whole, (float)mean);
-        const double off = -share / mean;
-        const bool corrected = share > 0;
-        sim->work.strain_xx[i] = corrected ? (float)(share + off * xx) : 0;
-        sim->work.strain[i] = corrected ? (sb_f4){d == 2 ? 0 : (float)(share + off * yy), (float)(off * xy),
-                                                  (float)(off * xz), (float)(off * yz)}
-                                        : (sb_f4){0};
+        const double mean = (xx + yy + zz) / d, t = squares / d;
+        const double c = (double)sb_stress_factor(sim, (float)t);
+        sim->work.deviator_xx[i] = (float)(c * (xx - mean));
+        sim->work.deviator[i] =
+            (sb_f4){d == 2 ? 0 : (float)(c * (yy - mean)), (float)(c * xy), (float)(c * xz), (float)(c * yz)};
     }
 }
 
-void sb_plain_strain(sb_sim *sim)
+void sb_plain_deviator(sb_sim *sim)
 {
-    sb_each_group(sim, strain_group, NULL);
+    sb_each_group(sim, deviator_group, NULL);
 }
 
 /* The tensor of an entry, reflected by a path: xx is carried by the record, the other parts are in `rest`. */
@@ -102,10 +87,10 @@ static void average_group(sb_sim *sim, const sb_group *group, const void *argume
     sb_indices_of(sim, group, &around);
     for (size_t i = group->first; i < group->end; i++) {
         double sum[PARTS] = {0}, weights = (double)SB_ROOT_MAX * SB_ROOT_MAX * (double)sim->work.pairs.unit;
-        add(sim, &around, sim->work.strain, (uint32_t)i, 0, weights, sum);
+        add(sim, &around, sim->work.deviator, (uint32_t)i, 0, weights, sum);
         for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
             const sb_one_pair p = sb_pair_at(sim, &around, i, k);
-            add(sim, &around, sim->work.strain, p.other, p.path, p.slope, sum);
+            add(sim, &around, sim->work.deviator, p.other, p.path, p.slope, sum);
             weights += p.slope;
         }
         sim->work.stress_xx[i] = (float)(sum[XX] / weights);
@@ -114,7 +99,7 @@ static void average_group(sb_sim *sim, const sb_group *group, const void *argume
     }
 }
 
-void sb_plain_mean_strain(sb_sim *sim)
+void sb_plain_mean_deviator(sb_sim *sim)
 {
     sb_each_group(sim, average_group, NULL);
 }
