@@ -26,7 +26,7 @@ typedef struct sb_stress_range {
     float least, whole;
 } sb_stress_range;
 
-static const sb_stress_range SB_STRESS_THIN = {0.45f, 0.7f}, SB_STRESS_TENSION = {0.85f, 0.95f};
+static const sb_stress_range SB_STRESS_THIN = {0.4f, 0.6f}, SB_STRESS_TENSION = {0.85f, 0.95f};
 
 /* c_i/t_i. */
 static inline float sb_stress_factor(const sb_sim *sim, float t)

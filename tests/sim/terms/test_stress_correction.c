@@ -50,7 +50,7 @@ static void deviator(const sb_sim *sim, const twin *copy, size_t i, tensor s)
             for (int column = 0; column < 3; column++)
                 m[row][column] -= r->mass * q * a[row] * b[column] / r->cloud.rest_density;
     }
-    const double mean = (m[0][0] + m[1][1] + m[2][2]) / d, part = fmin((t - 0.45) / 0.25, 1);
+    const double mean = (m[0][0] + m[1][1] + m[2][2]) / d, part = fmin((t - 0.4) / 0.2, 1);
     for (int row = 0; row < 3; row++)
         for (int column = 0; column < 3; column++)
             s[row][column] =
