@@ -5,7 +5,8 @@
    without f
 
    L is a Laplacian times -dr^2, up to a factor [Brookshaw 1985]. A wave of the number k loses kappa in proportion to (k
-   dr)^4. L is symmetric: momentum is conserved, and the energy falls by the sum of (L v)^2. */
+   dr)^4. L is symmetric: momentum is conserved, and the energy falls by the sum of (L v)^2. Without gravity it is off.
+ */
 #ifndef SB_SIM_HYPERVISCOSITY_H
 #define SB_SIM_HYPERVISCOSITY_H
 
