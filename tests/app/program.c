@@ -347,3 +347,24 @@ bool any_ending(const char *name, const char *ending)
     assert_int_equal(nftw(in_folder("%s", name), look, 16, FTW_PHYS), 0);
     return found;
 }
+
+double mean_of(const char *path, const char *item, int column, double from)
+{
+    char cell[32];
+    snprintf(cell, sizeof cell, ",%s,", item);
+    char *table = text_of(path), *save = NULL;
+    double sum = 0;
+    int rows = 0;
+    for (char *row = strtok_r(table, "\n", &save); row; row = strtok_r(NULL, "\n", &save)) {
+        const char *at = strstr(row, cell);
+        if (!at || strtod(row, NULL) < from) continue;
+        at += strlen(cell) - 1;
+        for (int c = 1; at && c < column; c++) at = strchr(at + 1, ',');
+        assert_non_null(at);
+        sum += strtod(at + 1, NULL);
+        rows++;
+    }
+    sb_free(table);
+    assert_true(rows > 0);
+    return sum / rows;
+}

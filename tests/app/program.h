@@ -28,6 +28,10 @@ const char *in_folder(const char *format, ...) __attribute__((format(printf, 1, 
  * sb_free. */
 void write_text(const char *name, const char *text);
 char *text_of(const char *name);
+
+/* The mean of a column of a table over the rows of an item from a time on. column: counted from that after the item, 1.
+   The test fails when there is no row. */
+double mean_of(const char *path, const char *item, int column, double from);
 bool exists(const char *name);
 
 /* From now on mpirun starts the binary on so many ranks; NULL: without mpirun. */

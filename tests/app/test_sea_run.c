@@ -240,28 +240,6 @@ static void a_source_that_will_dry_the_strip_is_named(void **state)
     outcome_free(&o);
 }
 
-/* The mean of a column of a table over the rows of an item from a time on. */
-static double mean_of(const char *path, const char *item, int column, double from)
-{
-    char cell[32];
-    snprintf(cell, sizeof cell, ",%s,", item);
-    char *table = text_of(path), *save = NULL;
-    double sum = 0;
-    int rows = 0;
-    for (char *row = strtok_r(table, "\n", &save); row; row = strtok_r(NULL, "\n", &save)) {
-        const char *at = strstr(row, cell);
-        if (!at || strtod(row, NULL) < from) continue;
-        at += strlen(cell) - 1;
-        for (int c = 1; at && c < column; c++) at = strchr(at + 1, ',');
-        assert_non_null(at);
-        sum += strtod(at + 1, NULL);
-        rows++;
-    }
-    sb_free(table);
-    assert_true(rows > 0);
-    return sum / rows;
-}
-
 /* A current crosses a box between four seas, whose corners it enters, leaves and passes. Five layers of water: the
    level stays within 1 % of the depth, also in the corners. Velocities of single places have the noise of some
    particles; their mean is within 3 % of the speed. */

@@ -134,7 +134,7 @@ static void wall_probes_add_up_to_the_force(void **state)
         }
     }
     print_message("probes %.0f N s/m, body %.0f N s/m, at most %.0f N/m\n", probe_impulse, force, greatest);
-    assert_true(greatest > 0.5 * 9810); /* the water struck the wall: more than the column at rest would exert */
+    assert_true(greatest > 5000); /* the water struck the wall: more than the column at rest would exert */
     assert_true(fabs(probe_impulse / force - 1) < 0.01);
     sb_measure_destroy(measure);
     b.scene.measure = (sb_measure_settings){0};
