@@ -183,7 +183,7 @@ static void at(const void *state, double t, double x, double y, double z, double
     sb_wave_sum sum;
     wave_at(sea, t, x - sea->origin[0], y - sea->origin[1], height, stretch, &sum);
     double grown = 1, rate = 0;
-    if (t < sea->ramp) {
+    if (sea->ramp > 0 && t < sea->ramp) {
         const double part = t / sea->ramp;
         grown = part * part * (3 - 2 * part);
         rate = 6 * part * (1 - part) / sea->ramp;

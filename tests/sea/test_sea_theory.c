@@ -29,6 +29,11 @@ static void a_solitary_wave_enters(void **state)
     const sb_solitary wave = {.height = 0.3, .depth = 1, .gravity = g};
     const double speed = sb_solitary_celerity(&wave);
     assert_near(sea_at(&c, 2, 0, 0, 0.5).surface - 1, 0.3e-4, 1e-9);
+    for (double t = 0; t < 2; t += 0.1) { /* it has no ramp: its front comes before */
+        const sb_sea_point before = sea_at(&c, t, 0, 0, 0.5);
+        assert_true(before.surface >= 1 && before.surface < 1 + 0.3e-4);
+        assert_true(fabs(before.velocity[0]) < 1e-3 && fabs(before.acceleration[0]) < 1e-3);
+    }
     double highest = 0, when = 0, volume = 0;
     for (double t = 2; t < 12; t += 0.001) {
         const sb_sea_point at = sea_at(&c, t, 0, 0, 0.5);

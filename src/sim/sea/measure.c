@@ -1,6 +1,6 @@
 /* The outgoing wave inside of a strip. Its characteristic u - 2 sqrt(g h) is that of the water there less that of the
-   given water at the same place. A filter of second order removes what is faster than the water can measure; its delay
-   is the time that a wave takes to the strip's inner edge. */
+   given water at the same place. A filter of second order makes of it the wave at the strip's inner edge. */
+#include "physics/outgoing.h"
 #include "sim/exchange/exchange.h"
 #include "sim/sea/strip.h"
 
@@ -18,12 +18,6 @@ static const double gauss_weight[OVER_DEPTH] = {5 / 18.0, 8 / 18.0, 5 / 18.0};
 /* A station with less water than LEAST_DEPTH spacings, or whose share would be beyond SHARE_MIN or its inverse, has no
    outgoing wave. */
 static const double LEAST_DEPTH = 1.5, SHARE_MIN = 0.8;
-
-static const double DAMPING = 0.70710678; /* Butterworth's */
-
-/* The second derivative comes from a slower filter, of this frequency over sqrt(g/h). The near field of the strip's own
-   motion reaches the measured water: with the derivative of the faster filter the loop would be unstable. */
-static const double SLOW = 2;
 
 /* Frequency over sqrt(g/h) of the filter for the wave at the line of a grid, which the measured water does not feel;
    least delay, in time steps. */
@@ -132,8 +126,10 @@ typedef struct means {
     double surface, depth, inwards;
 } means;
 
+/* Velocities belong to times half a step before the positions to which they lead. */
 static means given_means(const sb_sim *sim, const sb_strip_side *s, size_t station)
 {
+    const double now = sim->state.time, before = now - 0.5 * sim->state.time_step;
     const double reach = reach_of(sim), along = s->station_from + ((double)station + 0.5) * s->station_pitch;
     means m = {0};
     double all = 0;
@@ -143,11 +139,11 @@ static means given_means(const sb_sim *sim, const sb_strip_side *s, size_t stati
         const double bed = sb_strip_bed(sim, s, s->strip + reach + from, along);
         sb_sea_point p;
         at.z = bed;
-        sb_strip_source(sim, s, sim->state.time, at, bed, &p);
+        sb_strip_source(sim, s, now, at, bed, &p);
         const double surface = p.surface, depth = fmax(surface - bed, 0);
         for (int n = 0; n < OVER_DEPTH; n++) {
             at.z = bed + gauss_at[n] * depth;
-            sb_strip_source(sim, s, sim->state.time, at, bed, &p);
+            sb_strip_source(sim, s, before, at, bed, &p);
             m.inwards += w * gauss_weight[n] * (s->side % 2 ? -p.velocity[s->axis] : p.velocity[s->axis]);
         }
         m.surface += w * surface;
@@ -157,45 +153,44 @@ static means given_means(const sb_sim *sim, const sb_strip_side *s, size_t stati
     return (means){m.surface / all, m.depth / all, m.inwards / all};
 }
 
-/* Advances a filter of second order by a step. Returns its second derivative. */
-static double filter(double *value, double *rate, double input, double omega, double damping, double dt)
+/* Advances x + lag x' + inertia x'' = input, which is that of the middle of the step, by the midpoint rule. Returns x''
+   there. */
+static double filter(double *value, double *rate, double input, double lag, double inertia, double dt)
 {
-    const double curvature = (omega * omega * (input - *value - dt * *rate) - 2 * damping * omega * *rate) /
-                             (1 + 2 * damping * omega * dt + omega * omega * dt * dt);
+    const double curvature = (input - *value - (lag + 0.5 * dt) * *rate) / (inertia + 0.5 * lag * dt + 0.25 * dt * dt);
+    *value += dt * (*rate + 0.5 * dt * curvature);
     *rate += dt * curvature;
-    *value += dt * *rate;
     return curvature;
 }
 
-/* The wave at the line of a grid, `far` seconds later. A filter of its own gives derivatives that are smooth, and a
-   part of the delay. The rest is Pade's approximation of second order, (1 - d/2 + d^2/12) / (1 + d/2 + d^2/12) with d =
-   delay * d/dt: it changes no amplitude, where a series in the delay is wrong for waves that are shorter than the way.
-   With x the wave divided by the denominator, the quotient is the wave less delay * dx/dt. */
+/* The wave at the line of a grid, `far` seconds later. A Butterworth filter of its own gives derivatives that are
+   smooth, and a part of the delay. The rest is Pade's approximation of second order, (1 - d/2 + d^2/12) / (1 + d/2 +
+   d^2/12) with d = delay * d/dt: it changes no amplitude, where a series in the delay is wrong for waves that are
+   shorter than the way. With x the wave divided by the denominator, the quotient is the wave less delay * dx/dt. */
 static void delay_wave(sb_outgoing *o, double far, double crossing, double dt)
 {
-    const double omega = AT_LINE / crossing, root = sqrt(12);
-    const double lag = 2 * DAMPING / omega, delay = fmax(far - lag, LEAST_DELAY * dt);
-    const double curvature = filter(&o->smooth, &o->smooth_rate, o->value, omega, DAMPING, dt);
-    const double second = filter(&o->part, &o->part_rate, o->smooth, root / delay, 0.25 * root, dt);
+    const double time = crossing / AT_LINE, lag = sqrt(2) * time, delay = fmax(far - lag, LEAST_DELAY * dt);
+    const double curvature = filter(&o->smooth, &o->smooth_rate, o->value, lag, time * time, dt);
+    const double second = filter(&o->part, &o->part_rate, o->smooth, 0.5 * delay, delay * delay / 12, dt);
     const double third = 12 / (delay * delay) * (o->smooth_rate - o->part_rate - 0.5 * delay * second);
     o->late = (sb_late){lag + delay, o->smooth - delay * o->part_rate, o->smooth_rate - delay * second,
                         curvature - delay * third};
 }
 
-/* Times that waves need, s: to the strip, over one depth, and from the strip to the line of a grid (0: there is none).
- */
+/* Times that waves need, s: over one depth, and from the strip to the line of a grid (0: there is none). */
 typedef struct times {
-    double delay, crossing, far;
+    double crossing, far;
 } times;
 
-/* Advances a station by a step. The wave travels against a flow that comes in, at c - u: `pace` is that speed over c.
-   Time for what is between the measured water and the strip therefore runs by this factor, and stands still where no
-   wave gets out. It does not run faster where water flows out: the loop is stable with these frequencies, not with
-   higher ones. rate and curvature are derivatives in this time, so that rate / c is the wave's gradient. */
-static void advance(sb_outgoing *o, double now, double pace, const times *t, double dt)
+/* Advances a station by a step. The wave travels at c - u, c and u those of the water: `pace` is that speed over the c
+   of the law. Time for what is between the measured water and the strip runs by this factor, and stands still where no
+   wave gets out. rate and curvature are derivatives in this time, so that rate / c is the wave's gradient. */
+static void advance(sb_outgoing *o, double now, double pace, const sb_outgoing_law *law, const times *t, double dt)
 {
-    filter(&o->value, &o->rate, now, 2 * DAMPING / t->delay, DAMPING, pace * dt);
-    o->curvature = filter(&o->slow, &o->slow_rate, o->value, SLOW / t->crossing, DAMPING, pace * dt);
+    o->curvature = filter(&o->filtered, &o->rate, now, law->lag, law->inertia, pace * dt);
+    /* The boundary adds the dispersion, h/(12 g) of the curvature, which the law's velocity contains. The lead passes
+       what is fast at once; less of it counts where the wave takes longer. */
+    o->value = o->filtered + fmin(pace, 1) * (law->lead - t->crossing * t->crossing / 12) * o->curvature;
     if (t->far > 0) delay_wave(o, t->far, t->crossing, dt);
 }
 
@@ -213,10 +208,11 @@ static void measure_station(sb_sim *sim, const sb_strip_side *s, size_t station)
         o->share = sim->strip->still && volume > 0 ? still / volume : 1;
         o->share = o->share > SHARE_MIN && o->share < 1 / SHARE_MIN ? o->share : 1;
     }
-    const double wave_speed = sqrt(g * fmax(in.depth, dr));
-    const times t = {reach / wave_speed, fmax(in.depth, dr) / wave_speed, s->far / wave_speed};
+    const double water = fmax(in.depth, dr);
+    const sb_outgoing_law law = sb_outgoing_law_make(water, reach, 0.25 * dt, g);
+    const times t = {sqrt(water / g), s->far / sqrt(g * water)};
     if (!(volume > LEAST_DEPTH * dr * area)) {
-        advance(o, 0, 1, &t, dt);
+        advance(o, 0, 1, &law, &t, dt);
         return;
     }
     const double level = level_of(sim, s, station, in.surface, volume * o->share);
@@ -225,8 +221,8 @@ static void measure_station(sb_sim *sim, const sb_strip_side *s, size_t station)
     const double now = u - in.inwards - 2 * (sqrt(g * depth) - sqrt(g * in.depth));
     /* Froude number of the flow that comes in. The faster it is, the more of what is measured is the strip's own, which
        must not come back to it: the share 1 - F^2 is from within (docs/decisions/0092). */
-    const double froude = fmin(fmax(u / sqrt(g * fmax(depth, dr)), 0), 1);
-    advance(o, now * (1 - froude * froude), 1 - froude, &t, dt);
+    const double c = sqrt(g * fmax(depth, dr)), froude = fmin(fmax(u / c, 0), 1);
+    advance(o, now * (1 - froude * froude), fmax(c - u, 0) / sqrt(g * water), &law, &t, dt);
 }
 
 sb_status sb_strip_measure(sb_sim *sim, sb_error *error)

@@ -6,12 +6,11 @@
 #include <math.h>
 
 /* Reals of a station that outlive a step; the last ones only beside a line of a grid. */
-enum { REALS = 9, WITHOUT_LINE = 5 };
+enum { REALS = 7, WITHOUT_LINE = 3 };
 
 static size_t reals_of(const sb_strip_side *s, const sb_outgoing *o, double reals[REALS])
 {
-    const double all[REALS] = {o->share,  o->value,       o->rate, o->slow,     o->slow_rate,
-                               o->smooth, o->smooth_rate, o->part, o->part_rate};
+    const double all[REALS] = {o->share, o->filtered, o->rate, o->smooth, o->smooth_rate, o->part, o->part_rate};
     memcpy(reals, all, sizeof all);
     return s->far > 0 ? REALS : WITHOUT_LINE;
 }
@@ -44,14 +43,12 @@ static void load_side(sb_strip_side *s, sb_archive_in *in)
         double reals[REALS] = {0};
         sb_take_list(in, reals, s->far > 0 ? REALS : WITHOUT_LINE, sizeof *reals);
         *o = (sb_outgoing){.share = reals[0],
-                           .value = reals[1],
+                           .filtered = reals[1],
                            .rate = reals[2],
-                           .slow = reals[3],
-                           .slow_rate = reals[4],
-                           .smooth = reals[5],
-                           .smooth_rate = reals[6],
-                           .part = reals[7],
-                           .part_rate = reals[8]};
+                           .smooth = reals[3],
+                           .smooth_rate = reals[4],
+                           .part = reals[5],
+                           .part_rate = reals[6]};
         for (int r = 0; r < REALS; r++)
             if (!isfinite(reals[r])) sb_archive_refuse(in, "the outgoing wave of a side is not finite");
     }

@@ -14,11 +14,10 @@ typedef struct sb_late {
 
 /* The outgoing wave inside of a strip, over a few spacings along the side. */
 typedef struct sb_outgoing {
-    double share;           /* volume of the water over that of its particles, at rest; 0: not known yet */
-    double value;           /* m/s, what the wave adds to u - 2 sqrt(g h), u inwards, without its fast part */
-    double rate;            /* m/s^2, d value / dt */
-    double slow, slow_rate; /* the same by a slower filter */
-    double curvature;       /* m/s^3, d slow_rate / dt; of the present step only */
+    double share;          /* volume of the water over that of its particles, at rest; 0: not known yet */
+    double filtered, rate; /* m/s, m/s^2: y and y' of sb_outgoing_law */
+    double curvature;      /* m/s^3, y''; of the present step only */
+    double value;          /* m/s, what the wave adds to u - 2 sqrt(g h) at the strip, u inwards; likewise */
     double smooth, smooth_rate, part, part_rate; /* value by the filters that delay it to the line of a grid */
     sb_late late;                                /* at this line; of the present step only */
 } sb_outgoing;

@@ -163,7 +163,7 @@ static const char *const short_half[] = {SHORT("10", "141.3")}, *const short_low
                                           .scene = "regular-waves/" file ".yaml",                                      \
                                           .headline = "loss of height over ten wavelengths",                           \
                                           .what = &bars_##id,                                                          \
-                                          .full = {{.resolution = fine, .judged = true}},                              \
+                                          .full = {{.resolution = 2 * (fine)}, {.resolution = fine, .judged = true}},  \
                                           .quick = {{.resolution = coarse, .judged = true, .settings = more}},         \
                                           .evaluate = evaluate,                                                        \
                                           .plot = plot};
