@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-enum { SB_STAGES_MAX = 32 };
+enum { SB_STAGES_MAX = 33 };
 
 /* Seconds and calls of each stage in this process, settling included, for the stage table. */
 typedef struct sb_stage_time {

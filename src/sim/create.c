@@ -48,6 +48,7 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
     return (sb_needs){
         .density_correction = n->density == SB_DENSITY_COMPLETED && !wcsph,
         .stress_correction = n->stress_correction > 0 && !wcsph,
+        .packing_strain = n->density == SB_DENSITY_COMPLETED && n->stress_correction > 0 && !wcsph,
         .steady_stress = n->stress_correction > 0 && n->stress_memory > 0 && scene->fluid.gravity > 0 && !wcsph,
         .turbulence = n->turbulence == SB_TURBULENCE_SPS,
         .wall_shear = shear,

@@ -7,6 +7,7 @@
 
 typedef struct sb_needs {
     bool density_correction, stress_correction, turbulence;
+    bool packing_strain;        /* the density correction follows strains, with the stress correction */
     bool steady_stress;         /* the stress correction leaves out its steady part */
     bool wall_shear, wall_drag; /* drag: shear or friction */
     bool images;                /* walls reflect water */

@@ -32,6 +32,11 @@ typedef struct sb_passes {
     sb_status (*neighbours)(sb_sim *sim, sb_error *error);
     /* deviator_xx and deviator: D_i of sim/terms/stress_correction.h. Records carry q of the last step. */
     void (*deviator)(sb_sim *sim);
+    /* deviator_xx and deviator: the deviatoric part of the symmetric velocity gradient, exact for linear fields; 0
+       where water is thin. */
+    void (*strain)(sb_sim *sim);
+    /* strained: sum_j m (L_i + L_j)/2 x_ij . grad W_ij, L the tensor stress. Records carry stress_xx. */
+    void (*strained)(sb_sim *sim);
     /* stress_xx and stress: the mean of D over neighbours and images. Records carry deviator_xx. */
     void (*mean_deviator)(sb_sim *sim);
     /* corrected: the velocity after the correction, and stress_force. Records carry stress_xx. Returns 0,

@@ -41,6 +41,9 @@ void sb_report_skipped(sb_sim *sim)
              sb_work_cost(&sim->needs, "differences"));
     if (!sim->needs.stress_correction)
         skip(sim, &s, "stress correction: off, no passes over particle pairs for it", CORRECTION_PASSES, 0);
+    if (!sim->needs.packing_strain)
+        skip(sim, &s, "strain of the packing: off, no passes over particle pairs for it", CORRECTION_PASSES,
+             sb_work_cost(&sim->needs, "strained"));
     if (!sim->needs.turbulence)
         skip(sim, &s,
              sim->needs.eddy ? "turbulence: none, no strain rates"

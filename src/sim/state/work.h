@@ -15,6 +15,7 @@ typedef enum sb_phase {
     SB_PHASE_GHOSTS,
     SB_PHASE_NEIGHBOURS,
     SB_PHASE_DENSITY_CORRECTION,
+    SB_PHASE_STRAIN,
     SB_PHASE_DEVIATOR, /* stress correction: deviators, their means, velocities */
     SB_PHASE_STRESS,
     SB_PHASE_CORRECTED,
@@ -82,6 +83,7 @@ typedef struct sb_work {
     float *diagonal;      /* -a_ii > 0 for q as unknown; over dt^2 before the stage pressure; 0: no pressure here */
 
     float *last_unknown; /* q of the last step, Pa m^6/kg^2 */
+    float *strained;     /* kg/m^3/s, sum of the packing strain */
     float *deviator_xx, *stress_xx;
     sb_f4 *deviator, *stress;
     sb_cell_sum *cell_sum; /* by cell: owned, of the halo, of images (sim/terms/cell_mean.h) */

@@ -7,6 +7,7 @@
 #include "sim/step/stages.h"
 #include "sim/terms/density_correction.h"
 #include "sim/terms/hyperviscosity.h"
+#include "sim/terms/packing_strain.h"
 #include "sim/terms/sponge.h"
 #include "sim/terms/stress_correction.h"
 #include "sim/terms/surface_tension.h"
@@ -47,6 +48,8 @@ static const stage stages[] = {
      IMPLICIT},
     /* particles of the strips of given water */
     {"held", SB_PHASES, sb_stage_held, SB_NEEDS(sea), IMPLICIT},
+    /* density sums of a strained particle packing */
+    {"packing_strain", SB_PHASE_STRAIN, sb_stage_packing_strain, SB_NEEDS(packing_strain), IMPLICIT},
     /* removes deviatoric stress of the particle packing */
     {"stress_correction", SB_PHASE_DEVIATOR, sb_stage_stress_correction, SB_NEEDS(stress_correction), IMPLICIT},
     /* eddy viscosity from the strain rate */

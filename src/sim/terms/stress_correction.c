@@ -44,17 +44,27 @@ static void find_deviators(sb_sim *sim)
     }
 }
 
-/* S_i = <D>_i, without its steady part. Returns 0, or -1 without memory. */
-static int find_stress(sb_sim *sim)
+static void load_stress(sb_sim *sim)
 {
-    sb_work *w = &sim->work;
+    sb_refresh(sim, sim->work.stress);
+    sb_pressure_load(sim, sim->work.stress_xx);
+}
+
+/* <D>_i of the particles that are owned. Returns 0, or -1 without memory. */
+static int find_mean(sb_sim *sim)
+{
     sim->passes->mean_deviator(sim);
     for (int mean = 0; mean < MEANS; mean++) {
-        sb_refresh(sim, w->stress);
-        sb_pressure_load(sim, w->stress_xx);
-        if (sb_cell_mean(sim, w->stress_xx, w->stress) != 0) return -1;
+        load_stress(sim);
+        if (sb_cell_mean(sim, sim->work.stress_xx, sim->work.stress) != 0) return -1;
     }
-    sb_steady_stress_take(sim);
+    return 0;
+}
+
+int sb_stress_mean(sb_sim *sim)
+{
+    if (find_mean(sim) != 0) return -1;
+    load_stress(sim);
     return 0;
 }
 
@@ -72,9 +82,9 @@ sb_status sb_stage_stress_correction(sb_sim *sim, sb_error *error)
     sb_refresh(sim, sim->work.deviator);
     sb_pressure_load_begin(sim, sim->work.deviator_xx);
     sb_work_enter(&sim->work, SB_PHASE_STRESS);
-    if (find_stress(sim) != 0) return sb_fail_memory(error, "means of the stress of the particle packing");
-    sb_refresh(sim, sim->work.stress);
-    sb_pressure_load(sim, sim->work.stress_xx);
+    if (find_mean(sim) != 0) return sb_fail_memory(error, "means of the stress of the particle packing");
+    sb_steady_stress_take(sim);
+    load_stress(sim);
     sb_work_enter(&sim->work, SB_PHASE_CORRECTED);
     if (sim->passes->correct(sim) != 0) return sb_fail_memory(error, "forces on bodies");
     double sum[SUMS];

@@ -44,6 +44,10 @@ static inline float sb_stress_unknown(const sb_sim *sim, size_t i)
     return sim->state.velocity[i][3] / (density * density);
 }
 
+/* The mean <> of the tensors in deviator_xx, which records carry, and deviator; in stress_xx, which records carry then,
+   and stress, with ghosts. Returns 0, or -1 without memory. */
+int sb_stress_mean(sb_sim *sim);
+
 /* Adds the correction to the velocities of one step, from the pressures of the last step and the present neighbour
    lists. Momentum is conserved. The work is entered in the ledger. Fails, without changing velocities, if a particle
    would be too fast. */

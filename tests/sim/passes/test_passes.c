@@ -110,6 +110,8 @@ typedef struct row {
 
 enum {
     NEIGHBOURS,
+    STRAIN,
+    STRAINED,
     DEVIATOR,
     MEAN_DEVIATOR,
     CORRECT,
@@ -129,6 +131,8 @@ static const double SUM = 3e-6, ROOTS = 1e-4;
 
 static const row rows[PASSES] = {
     [NEIGHBOURS] = {"neighbours", {{"density", SUM}, {"wall", SUM}, {"diagonal", ROOTS}}},
+    [STRAIN] = {"strain", {{"deviator_xx", SUM}, {"deviator", SUM}}},
+    [STRAINED] = {"strained", {{"strained", SUM}}},
     [DEVIATOR] = {"deviator", {{"deviator_xx", SUM}, {"deviator", SUM}}},
     [MEAN_DEVIATOR] = {"mean_deviator", {{"stress_xx", SUM}, {"stress", SUM}}},
     [CORRECT] = {"correct", {{"corrected", SUM}}},
@@ -161,6 +165,12 @@ static void run(const sb_passes *form, int pass, sb_sim *sim, double *force)
     switch (pass) {
     case NEIGHBOURS:
         assert_int_equal(form->neighbours(sim, &error), SB_OK);
+        break;
+    case STRAIN:
+        form->strain(sim);
+        break;
+    case STRAINED:
+        form->strained(sim);
         break;
     case DEVIATOR:
         form->deviator(sim);
@@ -209,7 +219,7 @@ static void set_input(int pass, sb_sim *sim)
         const float a = (float)sb_random(11, i), b = (float)sb_random(12, i) - 0.5f, c = (float)sb_random(13, i) - 0.5f;
         if (pass == DEVIATOR) w->last_unknown[i] = 1e-3f * a;
         if (pass == MEAN_DEVIATOR) w->deviator_xx[i] = b, w->deviator[i] = (sb_f4){c, a, b, c};
-        if (pass == CORRECT) w->stress_xx[i] = b, w->stress[i] = (sb_f4){c, a, b, c};
+        if (pass == CORRECT || pass == STRAINED) w->stress_xx[i] = b, w->stress[i] = (sb_f4){c, a, b, c};
         if (pass == FORCES) w->eddy[i] = 0.01f * a, w->wall_drag[i] = (sb_f4){0};    /* set beside walls only */
         if (pass == FORCES && w->image_push) w->image_push[i] = (sb_f4){a, c, b, 0}; /* its memory becomes wall_drag */
         if (pass == DIFFERENCES) w->predicted[i] = (sb_f4){0};
@@ -218,7 +228,7 @@ static void set_input(int pass, sb_sim *sim)
     }
     if (pass == DEVIATOR) sb_pressure_load(sim, w->last_unknown);
     if (pass == MEAN_DEVIATOR) sb_refresh(sim, w->deviator), sb_pressure_load(sim, w->deviator_xx);
-    if (pass == CORRECT) sb_refresh(sim, w->stress), sb_pressure_load(sim, w->stress_xx);
+    if (pass == CORRECT || pass == STRAINED) sb_refresh(sim, w->stress), sb_pressure_load(sim, w->stress_xx);
     if (pass == FORCES) sb_refresh_values(sim, w->eddy), sb_pressure_load(sim, w->density);
     if (pass == ACCELERATE) sb_pressure_load(sim, w->unknown);
 }
@@ -285,7 +295,7 @@ static void compare_form(const sb_passes *form)
                 assert_non_null(forces[k]);
             }
             /* The reference does not search images. */
-            for (int pass = kind < IMAGES ? NEIGHBOURS : DEVIATOR; pass < PASSES; pass++) {
+            for (int pass = kind < IMAGES ? NEIGHBOURS : STRAIN; pass < PASSES; pass++) {
                 printf("%s, %dD%s, %s\n", form->name, dimensions, kinds[kind], rows[pass].name);
                 assert_int_equal(tank_prepare(w.sim, 0.01), 0); /* fields share memory */
                 compare_pass(form, pass, w.sim, forces);
@@ -319,7 +329,7 @@ static void all_rows_are_there(void **state)
         const sb_passes *p = forms[f];
         if (!p) continue;
         assert_true(p->name && p->neighbours && p->deviator && p->mean_deviator && p->correct && p->strain_rate &&
-                    p->differences && p->forces);
+                    p->differences && p->forces && p->strain && p->strained);
         assert_true(p->accelerate && p->diverge && p->virial && p->bodies);
     }
     assert_ptr_not_equal(sb_passes_choose(), &sb_passes_reference);

@@ -4,6 +4,7 @@
 #define SB_SIM_CPU_MOMENTS_H
 
 #include "sim/search/around.h"
+#include "sim/terms/turbulence.h"
 
 /* Sums over the neighbours j of one particle, w = -m W'/r times the quantum, x_ij in quanta:
    velocity = sum w v_ij (x) x_ij, place = sum w x_ij (x) x_ij; gradient times place = velocity. */
@@ -53,6 +54,25 @@ SB_INLINE float sb_adjugate(float m[3][3], float out[3][3])
             out[a][b] = m[a1][b1] * m[a2][b2] - m[a1][b2] * m[a2][b1];
         }
     return m[0][0] * out[0][0] + m[0][1] * out[0][1] + m[0][2] * out[0][2];
+}
+
+/* The velocity gradient from the moments, which are scaled: gradient[a][b] is that of component a along b, 1/s. Returns
+   false, without a gradient, where the determinant is at most SB_THINNEST. quantum: m. */
+SB_INLINE bool sb_moments_gradient(sb_moments *m, bool flat, float quantum, float gradient[3][3])
+{
+    const float scale = (m->place[0][0] + m->place[1][1] + m->place[2][2]) / (flat ? 2.0f : 3.0f);
+    float inverse[3][3];
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) m->place[a][b] = scale > 0 ? m->place[a][b] / scale : 0;
+    if (flat) m->place[1][1] = 1;
+    const float determinant = sb_adjugate(m->place, inverse);
+    if (!(determinant > SB_THINNEST)) return false;
+    const float factor = 1 / (determinant * scale * quantum);
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++)
+            gradient[a][b] = factor * (m->velocity[a][0] * inverse[0][b] + m->velocity[a][1] * inverse[1][b] +
+                                       m->velocity[a][2] * inverse[2][b]);
+    return true;
 }
 
 #endif

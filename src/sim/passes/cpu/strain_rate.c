@@ -7,24 +7,15 @@
 
 #include <math.h>
 
-/* |S| in 1/s. Gradients are not corrected where the determinant is below SB_THINNEST. */
+/* |S| in 1/s. Gradients are not corrected where water is thin. */
 SB_INLINE float strain_rate(const sb_sim *sim, const sb_group *group, const sb_f4 *around, size_t i)
 {
     const bool flat = sim->constant.dimension == 2;
     sb_moments m = sb_moments_gather(sim, group, around, i);
-    const float scale = (m.place[0][0] + m.place[1][1] + m.place[2][2]) / (flat ? 2.0f : 3.0f);
-    float inverse[3][3], gradient[3][3];
-    for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++) m.place[a][b] = scale > 0 ? m.place[a][b] / scale : 0;
-    if (flat) m.place[1][1] = 1;
-    const float determinant = sb_adjugate(m.place, inverse);
-    const bool corrected = determinant > SB_THINNEST;
-    const float factor = corrected ? 1 / (determinant * scale * (float)sim->space.quantum) : 1 / sim->work.density[i];
-    for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++)
-            gradient[a][b] = factor * (corrected ? m.velocity[a][0] * inverse[0][b] + m.velocity[a][1] * inverse[1][b] +
-                                                       m.velocity[a][2] * inverse[2][b]
-                                                 : m.velocity[a][b]);
+    float gradient[3][3];
+    if (!sb_moments_gradient(&m, flat, (float)sim->space.quantum, gradient))
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b < 3; b++) gradient[a][b] = 1 / sim->work.density[i] * m.velocity[a][b];
     float square = 0;
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++)

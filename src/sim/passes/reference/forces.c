@@ -38,11 +38,10 @@ static void solve(double m[3][3], const double b[3], double x[3])
     }
 }
 
-/* |S| of particle i in 1/s. */
-static double strain_rate(const sb_sim *sim, const sb_indices *around, size_t i)
+bool sb_plain_gradient(const sb_sim *sim, const sb_indices *around, size_t i, double gradient[3][3])
 {
     const bool flat = sim->constant.dimension == 2;
-    double place[3][3] = {{0}}, velocity[3][3] = {{0}}, gradient[3][3], square = 0;
+    double place[3][3] = {{0}}, velocity[3][3] = {{0}};
     for (size_t k = 0; k < sb_direct_count(sim, i); k++) {
         const sb_one_pair p = sb_pair_at(sim, around, i, k);
         const sb_f4 v = sim->state.velocity[i] - sim->state.velocity[p.other];
@@ -64,6 +63,14 @@ static double strain_rate(const sb_sim *sim, const sb_indices *around, size_t i)
             gradient[a][b] = corrected ? gradient[a][b] / (scale * sim->space.quantum)
                                        : velocity[a][b] / (double)sim->work.density[i];
     }
+    return corrected;
+}
+
+/* |S| of particle i in 1/s. */
+static double strain_rate(const sb_sim *sim, const sb_indices *around, size_t i)
+{
+    double gradient[3][3], square = 0;
+    sb_plain_gradient(sim, around, i, gradient);
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) square += 0.5 * pow(gradient[a][b] + gradient[b][a], 2);
     return sqrt(square);

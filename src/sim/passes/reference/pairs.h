@@ -140,6 +140,10 @@ bool sb_plain_within(const sb_sim *sim, sb_vec3 offset);
 void sb_plain_reflect(const sb_sim *sim, const sb_indices *indices, uint32_t path, sb_vec3 at, sb_vec3 a,
                       double *force);
 
+/* Velocity gradient of particle i from its neighbours, 1/s: gradient[a][b] is that of component a along b. Exact for
+   linear fields, unless water is thin: then it returns false, and the gradient is the sum over the density. */
+bool sb_plain_gradient(const sb_sim *sim, const sb_indices *around, size_t i, double gradient[3][3]);
+
 /* Acceleration by one boundary particle's friction and shear, m/s^2. */
 sb_vec3 sb_plain_drag(const sb_sim *sim, size_t i, const sb_one_wall *wall, const sb_wall_drag *law);
 

@@ -132,6 +132,48 @@ static void correct_group(sb_sim *sim, const sb_group *group, const void *argume
     }
 }
 
+static void strain_group(sb_sim *sim, const sb_group *group, const void *arguments)
+{
+    (void)arguments;
+    sb_indices around;
+    sb_indices_of(sim, group, &around);
+    const int d = sim->constant.dimension;
+    for (size_t i = group->first; i < group->end; i++) {
+        double g[3][3];
+        const double on = sb_plain_gradient(sim, &around, i, g) ? 1 : 0, mean = (g[0][0] + g[1][1] + g[2][2]) / d;
+        sim->work.deviator_xx[i] = (float)(on * (g[0][0] - mean));
+        sim->work.deviator[i] =
+            (sb_f4){d == 2 ? 0 : (float)(on * (g[1][1] - mean)), (float)(on * (g[0][1] + g[1][0]) / 2),
+                    (float)(on * (g[0][2] + g[2][0]) / 2), (float)(on * (g[1][2] + g[2][1]) / 2)};
+    }
+}
+
+void sb_plain_strain(sb_sim *sim)
+{
+    sb_each_group(sim, strain_group, NULL);
+}
+
+/* The force of the correction has the same sums, with S in the place of L. */
+static void strained_group(sb_sim *sim, const sb_group *group, const void *arguments)
+{
+    (void)arguments;
+    sb_indices around;
+    sb_indices_of(sim, group, &around);
+    for (size_t i = group->first; i < group->end; i++) {
+        double sum = 0;
+        for (size_t k = 0; k < sb_pair_count(sim, i); k++) {
+            const sb_one_pair p = sb_pair_at(sim, &around, i, k);
+            sum -= sb_dot(correction(sim, &around, i, &p), p.offset) / 2;
+        }
+        sim->work.strained[i] = (float)(sum * sim->space.quantum);
+    }
+}
+
+void sb_plain_strained(sb_sim *sim)
+{
+    sb_each_group(sim, strained_group, NULL);
+}
+
 /* The reactions of the walls to the correction by images. */
 static void push_walls(sb_sim *sim, const sb_group *group)
 {
