@@ -1,4 +1,4 @@
-/* The passes of the packing's strain (sim/terms/packing_strain.h). */
+/* The passes of the strain of the packing (sim/terms/packing_strain.h). */
 #include "sim/passes/cpu/cpu.h"
 #include "sim/passes/cpu/eights.h"
 #include "sim/passes/cpu/moments.h"
