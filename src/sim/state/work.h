@@ -64,8 +64,8 @@ typedef struct sb_cell_sum {
     sb_f4 rest, more;
 } sb_cell_sum;
 
-/* A particle's stress without trace: xx, and yy, xy, xz, yz. In views that neighbours read xx is carried by
-   the records (sb_pressure_load). */
+/* A particle's stress or rate of strain without trace: xx, and yy, xy, xz, yz. In views that neighbours read xx is
+   carried by the records (sb_pressure_load). */
 typedef struct sb_work {
     sb_lists pairs; /* with fluid particles, and with boundary particles */
     sb_pairs wall_pairs;

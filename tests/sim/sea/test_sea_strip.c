@@ -219,12 +219,12 @@ static double share_measured(double froude, int steps)
 static void a_wave_goes_out_against_the_flow(void **state)
 {
     (void)state;
-    const double calm = share_measured(0, 6), half = share_measured(0.5, 12), late = share_measured(0.5, 6);
-    const double ebb = share_measured(-0.5, 4), fast = share_measured(1.1, 24);
+    const double calm = share_measured(0, 9), half = share_measured(0.5, 18), late = share_measured(0.5, 9);
+    const double ebb = share_measured(-0.5, 6), fast = share_measured(1.1, 36);
     printf("outgoing wave: %.3f in still water, %.3f at a Froude number of 0.5 in twice the time, %.3f in the same; "
            "%.3f at -0.5 in two thirds; %.4f at 1.1\n",
            calm, half, late, ebb, fast);
-    assert_true(calm > 0.2);
+    assert_true(calm > 0.4);
     assert_near(half, 0.75 * calm, 0.02);
     assert_true(late < 0.6 * 0.75 * calm);
     assert_near(ebb, calm, 0.02);

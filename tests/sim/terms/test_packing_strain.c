@@ -1,4 +1,5 @@
-/* The density of a strained packing: the change of density sums in a linear motion, and crests of long waves. */
+/* The density of a strained packing: the change of density sums in a linear motion. The height of long waves is judged
+   by the cases sea-solitary of tools/validate. */
 #include "base/memory.h"
 #include "check.h"
 #include "sim/passes/passes.h"
