@@ -146,7 +146,10 @@ const sb_case sb_case_sea_tide = {
               "h = 1 m; the bed\nrises to 0.3 m and has a bar of 0.45 m.",
     .scene = "sea/tide.yaml",
     .headline = "level, RMS difference, worst gauge",
-    .full = {{.resolution = 0.1, .seeds = 3}, {.resolution = 0.05, .judged = true}},
+    .full = {{.resolution = 0.1, .seeds = 3},
+             {.resolution = 0.05},
+             {.resolution = 0.025},
+             {.resolution = 0.0125, .judged = true}},
     .quick = {{.resolution = 0.1, .judged = true, .settings = one_period}},
     .evaluate = evaluate_tide,
     .plot = plot_tide};
