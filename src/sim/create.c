@@ -11,6 +11,7 @@
 #include "sim/state/gather.h"
 #include "sim/step/stages.h"
 #include "sim/terms/density_correction.h"
+#include "sim/terms/hyperviscosity.h"
 #include "sim/terms/surface_tension.h"
 #include "sim/walls/mirrors.h"
 #include "sim/walls/normals.h"
@@ -39,12 +40,21 @@ static bool has_sponge(const sb_scene *scene, sb_sponge_kind kind)
     return any;
 }
 
+/* Whether pairs have a viscosity. */
+static bool is_viscous(const sb_scene *scene, const sb_model *model, bool hyperviscosity, bool eddy)
+{
+    const double faint = hyperviscosity ? sb_faint_viscosity(scene, sb_model_wave_speed(scene, model)) : 0;
+    return scene->numerics.artificial_viscosity > 0 || eddy || scene->fluid.viscosity > faint;
+}
+
 static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
 {
     const sb_numerics *n = &scene->numerics;
     const sb_pressure_solver *solver = sb_pressure_solvers[n->solver];
     const bool shear = n->wall_shear == SB_SHEAR_SMOOTH && scene->fluid.viscosity > 0;
     const bool settling = sb_sim_settles(scene), wcsph = n->solver == SB_SOLVER_WCSPH;
+    const bool hyperviscosity = n->hyperviscosity > 0 && scene->fluid.gravity > 0 && !wcsph;
+    const bool eddy = n->turbulence == SB_TURBULENCE_SPS || has_sponge(scene, SB_SPONGE_VISCOUS);
     return (sb_needs){
         .density_correction = n->density == SB_DENSITY_COMPLETED && !wcsph,
         .stress_correction = n->stress_correction > 0 && !wcsph,
@@ -57,11 +67,12 @@ static sb_needs needs_of(const sb_scene *scene, const sb_model *model)
         .wall_lists = n->walls != SB_WALLS_IMAGES,
         .wall_body = n->walls == SB_WALLS_IMAGES && (shear || n->wall_friction > 0),
         .sea = sb_scene_has_sea(scene),
-        .hyperviscosity = n->hyperviscosity > 0 && scene->fluid.gravity > 0 && !wcsph,
+        .viscosity = is_viscous(scene, model, hyperviscosity, eddy),
+        .hyperviscosity = hyperviscosity,
         .surface_tension = scene->fluid.surface_tension > 0,
         .sponge = has_sponge(scene, SB_SPONGE_DAMPING),
         .viscous_sponge = has_sponge(scene, SB_SPONGE_VISCOUS),
-        .eddy = n->turbulence == SB_TURBULENCE_SPS || has_sponge(scene, SB_SPONGE_VISCOUS),
+        .eddy = eddy,
         .foam = scene->foam.enabled,
         .settling = settling,
         .start_velocity = settling && sb_model_start_speed(model) > 0,

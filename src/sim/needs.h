@@ -14,6 +14,7 @@ typedef struct sb_needs {
     bool wall_lists;            /* boundary particles act by their pairs with water, for which there are lists */
     bool wall_body;             /* there are none, and walls have drag */
     bool sea;                   /* water of a given sea comes in through a side */
+    bool viscosity;             /* pairs have a viscosity: artificial, eddy, or the fluid's where it is not faint */
     bool hyperviscosity;
     bool surface_tension;
     bool sponge;         /* zones slow water down */

@@ -34,8 +34,12 @@ void sb_report_skipped(sb_sim *sim)
     enum { CORRECTION_PASSES = 3 }; /* moments, their mean, the force */
     const sb_numerics *n = &sim->scene->numerics;
     size_t s = 0;
-    if (!(n->artificial_viscosity > 0) && !(sim->constant.viscosity > 0) && !sim->needs.eddy)
-        skip(sim, &s, "viscosity: both coefficients are 0, no pass over particle pairs", 1, 0);
+    if (!sim->needs.viscosity)
+        skip(sim, &s,
+             sim->constant.viscosity > 0
+                 ? "viscosity: the fluid's is faint beside the hyperviscosity, no pass over particle pairs"
+                 : "viscosity: both coefficients are 0, no pass over particle pairs",
+             1, 0);
     if (!sim->needs.hyperviscosity)
         skip(sim, &s, "hyperviscosity: off, no passes over particle pairs for it", 2,
              sb_work_cost(&sim->needs, "differences"));

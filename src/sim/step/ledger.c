@@ -50,8 +50,7 @@ void sb_ledger_close(sb_sim *sim)
     const double m = (double)sim->constant.mass, g = (double)sim->constant.gravity;
     const double dt = (double)(float)sim->state.time_step; /* in the precision that advanced the velocities */
     const double friction = m * s.friction * dt;
-    const bool viscous = sim->scene->numerics.artificial_viscosity > 0 || sim->constant.viscosity > 0 ||
-                         sim->work.eddy || sim->needs.hyperviscosity;
+    const bool viscous = sim->needs.viscosity || sim->needs.hyperviscosity;
     sb_ledger *ledger = &sim->state.ledger;
     ledger->bodies -= dt * (bodies.pressure + bodies.friction);
     /* Without viscosity this value is only the rounding of v*. */

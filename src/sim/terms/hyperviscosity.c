@@ -6,6 +6,11 @@
 
 #include <string.h>
 
+double sb_faint_viscosity(const sb_scene *scene, double wave_speed)
+{
+    return 0x1p-20 * scene->numerics.hyperviscosity * wave_speed * scene->resolution;
+}
+
 sb_status sb_stage_hyperviscosity(sb_sim *sim, sb_error *error)
 {
     (void)error;

@@ -12,6 +12,11 @@
 
 #include "sim/simulation.h"
 
+/* The viscosity of a fluid (m^2/s) below which pairs do without it: 2^-20 of kappa sqrt(gD) dr. At the scale of the
+   spacing it would add less than 2e-5 to the hyperviscosity's damping, and waves of hundreds of spacings, which lose
+   as much to both, lose nothing. 0 without hyperviscosity. wave_speed: sqrt(gD), m/s. */
+double sb_faint_viscosity(const sb_scene *scene, double wave_speed);
+
 /* Stage, after the forces: adds it to v*. */
 sb_status sb_stage_hyperviscosity(sb_sim *sim, sb_error *error);
 

@@ -10,7 +10,7 @@ static sb_viscous factors_of(const sb_sim *sim)
     const sb_constants *c = &sim->constant;
     double h_quanta = (double)c->support / sim->space.quantum;
     return (sb_viscous){
-        .on = n->artificial_viscosity > 0 || c->viscosity > 0 || sim->work.eddy,
+        .on = sim->needs.viscosity,
         .artificial = 2.0f * (float)n->artificial_viscosity * c->support * c->sound_speed,
         .physical = 4.0f * (float)(c->dimension + 2) * c->viscosity,
         .eddy = 2.0f * (float)(c->dimension + 2),

@@ -116,6 +116,42 @@ static void it_falls_with_the_fourth_power_of_the_wavelength(void **state)
     assert_near(at20 / at40, 16, 0.8);
 }
 
+/* Motion of the scale of the spacing, near the limit below which pairs do without the viscosity of the fluid. */
+static void a_faint_viscosity_is_left_out(void **state)
+{
+    (void)state;
+    enum { FAINT, ABOVE, STRONG, FORMS };
+    double change[FORMS] = {0}, hyper = 0, limit = 0;
+    for (int form = 0; form < FORMS; form++) {
+        tank t;
+        tank_of_particles(&t, 2, 0.1, sb_vec(3, 0, 2), 3, 1.8, 0);
+        tank_scatter(&t, 5, 1);
+        limit = 0x1p-20 * KAPPA * sqrt(t.scene.fluid.gravity * 2) * 0.1; /* the domain is 2 m high */
+        t.scene.fluid.viscosity = form == STRONG ? 0.01 : limit * (form == FAINT ? 0.2 : 2);
+        sb_sim *sim = prepare(&t);
+        sb_error error = {0};
+        assert_true(tank_skips(sim, "viscosity: the fluid's") == (form == FAINT));
+        assert_int_equal(sb_stage_forces(sim, &error), SB_OK);
+        const float fall = sim->constant.gravity * (float)sim->state.time_step;
+        for (size_t i = 0; i < sim->state.n; i++) {
+            const sb_f4 by = sim->work.predicted[i] - sim->state.velocity[i] + (sb_f4){0, 0, fall, 0};
+            change[form] += (double)sb_sum3(by * by);
+        }
+        memcpy(sim->work.predicted, sim->state.velocity, sim->state.n * sizeof *sim->work.predicted);
+        assert_int_equal(sb_stage_hyperviscosity(sim, &error), SB_OK);
+        hyper = 0;
+        for (size_t i = 0; i < sim->state.n; i++) {
+            const sb_f4 by = sim->work.predicted[i] - sim->state.velocity[i];
+            hyper += (double)sb_sum3(by * by);
+        }
+        sb_sim_destroy(sim);
+        tank_free(&t);
+    }
+    const double part = sqrt(change[STRONG] / hyper) * limit / 0.01;
+    printf("at the limit it changes velocities by %.2g of what the hyperviscosity does\n", part);
+    assert_true(part < 2e-5 && part > 1e-6);
+}
+
 static void it_costs_nothing_when_off(void **state)
 {
     (void)state;
@@ -136,6 +172,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_random_cloud_is_the_reference),
         cmocka_unit_test(it_falls_with_the_fourth_power_of_the_wavelength),
+        cmocka_unit_test(a_faint_viscosity_is_left_out),
         cmocka_unit_test(it_costs_nothing_when_off),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
