@@ -16,17 +16,44 @@ double sb_model_sea_reach(const sb_model *model, double depth)
     return fmax(LEAST_REACH * model->spacing, REACH * depth);
 }
 
-/* z of the highest ground at (x, y). */
-static double ground_at(const sb_model *model, const sb_model_space *space, double x, double y)
+/* Distance from `at` up (1) or down (-1) to the first surface of the bodies, at most `limit`, which is returned if
+   there is none; *body is that which has it. */
+static double surface_from(const sb_model *model, const sb_model_space *space, sb_vec3 at, int up, double limit,
+                           size_t *body)
 {
-    const double from = model->max.z;
-    double depth = from - model->min.z;
     for (size_t b = 0; b < space->count; b++) {
         if (!space->solid[b] || model->bodies[b].mesh.triangle_count == 0) continue;
-        const double hit = sb_solid_raycast(space->solid[b], sb_vec(x, y, from), sb_vec(0, 0, -1), depth);
-        if (hit > 0) depth = fmin(depth, hit);
+        const double hit = sb_solid_raycast(space->solid[b], at, sb_vec(0, 0, up), limit);
+        if (!(hit > 0)) continue;
+        limit = hit;
+        if (body) *body = b;
     }
-    return from - depth;
+    return limit;
+}
+
+/* Whether a body is at a place; *top: where it ends above. */
+static bool is_ground(const sb_model *model, const sb_model_space *space, sb_vec3 at, double *top)
+{
+    for (size_t b = 0; b < space->count; b++) {
+        if (!space->solid[b] || model->bodies[b].mesh.triangle_count == 0) continue;
+        if (!sb_solid_contains(space->solid[b], at)) continue;
+        const double rest = model->max.z - at.z, hit = sb_solid_raycast(space->solid[b], at, sb_vec(0, 0, 1), rest);
+        *top = hit > 0 ? at.z + hit : model->max.z;
+        return true;
+    }
+    return false;
+}
+
+/* z of the ground at (x, y): below the still level, or the top of what is there. What hangs above the level is none. */
+static double ground_at(const sb_model *model, const sb_model_space *space, double x, double y, double level)
+{
+    sb_vec3 at = sb_vec(x, y, fmin(level, model->max.z));
+    double top;
+    if (!is_ground(model, space, at, &top)) return at.z - surface_from(model, space, at, -1, at.z - model->min.z, NULL);
+    /* Bodies may lie on each other. */
+    const double step = 1e-6 * model->spacing;
+    while (at.z = top + step, at.z < model->max.z && is_ground(model, space, at, &top)) continue;
+    return fmin(at.z - step, model->max.z);
 }
 
 sb_vec3 sb_model_sea_place(const sb_model *model, int side, double inwards, double along)
@@ -54,9 +81,32 @@ static int lay_out(const sb_scene *scene, const sb_model_space *space, const sb_
     for (size_t c = 0; c < cells; c++) {
         const double inwards = ((double)(c % sea->across) + 0.5) * sea->step;
         const sb_vec3 at = sb_model_sea_place(model, side, inwards, ((double)(c / sea->across) + 0.5) * sea->pitch);
-        sea->bed[c] = ground_at(model, space, at.x, at.y);
+        sea->bed[c] = ground_at(model, space, at.x, at.y, scene->sea.level);
     }
     return 0;
+}
+
+/* Refuses what hangs over a strip lower than its highest water, which would be born within it. */
+static sb_status check_above(const sb_scene *scene, const sb_model_space *space, const sb_model *model, int side,
+                             double highest, sb_error *error)
+{
+    const sb_model_sea *sea = &model->sea[side];
+    const double level = scene->sea.level, most = highest - level;
+    for (size_t c = 0; most > 0 && c < sea->across * sea->along; c++) {
+        const double inwards = ((double)(c % sea->across) + 0.5) * sea->step;
+        if (inwards > sea->strip || !(sea->bed[c] < level)) continue;
+        sb_vec3 at = sb_model_sea_place(model, side, inwards, ((double)(c / sea->across) + 0.5) * sea->pitch);
+        at.z = level;
+        size_t body = 0;
+        const double free = surface_from(model, space, at, 1, most, &body);
+        if (free < most)
+            return sb_fail(error, SB_BAD_INPUT,
+                           "domain.sides.%s: body \"%s\" hangs over the given water there, at %g m near (%g, %g), and "
+                           "the highest water is at %g m; expected it above this, or %g m inside of the side",
+                           sb_side_names[side], model->bodies[body].name, level + free, at.x, at.y, highest,
+                           sea->strip);
+    }
+    return SB_OK;
 }
 
 /* Refuses a side that no water reaches, and a domain without room for the strip. */
@@ -100,6 +150,7 @@ sb_status sb_model_sea_sides(const sb_scene *scene, const sb_model_space *space,
             status = sb_fail_memory(error, "the ground beside a sea");
         else
             status = check(scene, model, side, highest, error);
+        if (status == SB_OK) status = check_above(scene, space, model, side, highest, error);
     }
     if (status == SB_OK) status = sb_model_sea_warn(scene, sea, model, error);
     sb_sea_destroy(sea);
