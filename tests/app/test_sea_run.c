@@ -211,6 +211,9 @@ static void doubtful_input_is_named(void **state)
          "sea.start or offshore.level"},
         {"sea: {source: theory, wave: solitary, height: 0.08, depth: 0.8}\n", "expected the depth at the side"},
         {"sea: {source: table, file: table.csv}\n", "such as {x_max: still}"},
+        {"sea: {source: offshore, start: -1.6}\noffshore: {cell: 0.05, min: [-4], max: [5], wave: {kind: solitary, "
+         "height: 0.1, depth: 0.4, position: -2}}\n",
+         "this part of the wave is lost"},
     };
     char text[2000];
     write_table("table.csv", 0.05, 4);
@@ -233,7 +236,7 @@ static void a_source_that_will_dry_the_strip_is_named(void **state)
     write_text("dry.csv", "t,eta,u\n0,0,0\n1,0,0\n2,-0.37,0\n4,-0.37,0\n");
     write_text("dry.yaml", HEAD SEA "sea: {source: table, file: dry.csv, sides: {x_max: still}}\n");
     outcome o = RUN(0, "check", "dry.yaml");
-    assert_contains(o.out, "warning: sea: at 1.86 s the given water at x_min falls to 0.04973 m at (0, 0)");
+    assert_contains(o.out, "warning: sea: at 1.859 s the given water at x_min falls to 0.04994 m at (0, 0)");
     outcome_free(&o);
     o = RUN(0, "check", "dry.yaml", "--set", "duration=1.8");
     assert_null(strstr(o.out, "warning: sea"));

@@ -36,6 +36,29 @@ static farthest first_height(const sb_scene *scene, const sb_model *model, const
     return found;
 }
 
+/* Warns of a grid that has a wave within the domain at t = 0, where the particles are at rest. */
+static sb_status warn_within(const sb_scene *scene, const sb_offshore *grid, sb_model *model, sb_error *error)
+{
+    const double cell = scene->offshore.cell, level = scene->sea.level;
+    const bool flat = model->dimensions == 2;
+    double most = 0, surface = 0;
+    sb_vec3 place = {0};
+    for (double x = model->min.x + 0.5 * cell; x < model->max.x; x += cell)
+        for (double y = flat ? 0 : model->min.y + 0.5 * cell; flat ? y == 0 : y < model->max.y; y += cell) {
+            const sb_offshore_sample here = sb_offshore_at(grid, x, y);
+            if (!here.wet[0] || !(here.bed < level) || fabs(here.water[0].surface - level) <= most) continue;
+            most = fabs(here.water[0].surface - level);
+            surface = here.water[0].surface;
+            place = sb_vec(x, y, 0);
+        }
+    if (!(most > model->spacing)) return SB_OK;
+    return sb_model_warn(model, error,
+                         "sea: at t = 0 the grid's surface within the domain is at %.4g m, near (%g, %g), and the "
+                         "particles begin at rest at %g m: this part of the wave is lost; expected a later sea.start, "
+                         "before the wave reaches the domain",
+                         surface, place.x, place.y, level);
+}
+
 /* The side whose deepest ground is nearest to the depth of the theory; that depth. */
 static int nearest_depth(const sb_scene *scene, const sb_model *model, double *depth)
 {
@@ -85,31 +108,31 @@ static sb_status warn_first(const sb_scene *scene, const farthest *f, sb_model *
                          f->height, level);
 }
 
-/* Whether a source leaves less than a spacing of water at time t on a column that has SB_SEA_DEEP layers at the start,
-   at PLACES columns of a side at most. */
+/* Whether a source leaves less than a spacing of water at time t on every column that has SB_SEA_DEEP layers at the
+   start; *found: the lowest of them. */
 static bool falls_dry(const sb_model *model, const sb_sea_source *sea, int side, double t, farthest *found)
 {
-    enum { PLACES = 16 };
     const sb_model_sea *ground = &model->sea[side];
-    const size_t step = ground->along / PLACES + 1;
-    for (size_t c = 0; c < ground->along; c += step) {
+    bool any = false;
+    for (size_t c = 0; c < ground->along; c++) {
         const double bed = ground->bed[c * ground->across];
         const sb_vec3 at = sb_model_sea_place(model, side, 0, ((double)c + 0.5) * ground->pitch);
         sb_sea_point first, water;
         sb_sea_at(sea, 0, at.x, at.y, bed, bed, &first);
+        if (round((first.surface - bed) / model->spacing) < SB_SEA_DEEP) continue;
         sb_sea_at(sea, t, at.x, at.y, bed, bed, &water);
-        if (round((first.surface - bed) / model->spacing) < SB_SEA_DEEP || water.surface - bed >= model->spacing)
-            continue;
+        if (water.surface - bed >= model->spacing) return false;
+        if (any && bed >= found->bed) continue;
+        any = true;
         *found = (farthest){.height = water.surface, .at = at, .bed = bed};
-        return true;
     }
-    return false;
+    return any;
 }
 
 /* Warns of a source that will dry a strip: the run ends there (sim/sea/inflow.c). */
 static sb_status warn_dry(const sb_scene *scene, const sb_sea_source *sea, sb_model *model, sb_error *error)
 {
-    enum { TIMES = 1000 };
+    enum { TIMES = 10000 };
     for (int k = 1; k <= TIMES; k++)
         for (int side = 0; side < 4; side++) {
             const double t = scene->duration * k / TIMES;
@@ -117,8 +140,9 @@ static sb_status warn_dry(const sb_scene *scene, const sb_sea_source *sea, sb_mo
             if (!sb_scene_given_side(scene, side) || !falls_dry(model, sea, side, t, &f)) continue;
             return sb_model_warn(
                 model, error,
-                "sea: at %.4g s the given water at %s falls to %.4g m at (%g, %g), over ground at %g m: the "
-                "strip would be dry, and the run ends there; expected at least one spacing of water, or a "
+                "sea: at %.4g s the given water at %s falls to %.4g m at (%g, %g), over ground at %g m, the lowest "
+                "there: "
+                "the strip would be dry, and the run ends there; expected at least one spacing of water, or a "
                 "side in deeper water",
                 t, sb_side_names[side], f.height, f.at.x, f.at.y, f.bed);
         }
@@ -177,8 +201,10 @@ sb_status sb_model_sea_warn(const sb_scene *scene, sb_sea_source *sea, sb_model 
     switch (scene->given.source) {
     case SB_GIVEN_NONE:
         return SB_OK;
-    case SB_GIVEN_OFFSHORE:
-        return warn_other_bed(scene, sb_sea_grid(sea), model, error);
+    case SB_GIVEN_OFFSHORE: {
+        const sb_status status = still ? warn_within(scene, sb_sea_grid(sea), model, error) : SB_OK;
+        return status == SB_OK ? warn_other_bed(scene, sb_sea_grid(sea), model, error) : status;
+    }
     case SB_GIVEN_TABLE:
     case SB_GIVEN_RECORD: {
         const sb_status status = warn_opposite(scene, model, error);

@@ -192,22 +192,39 @@ static float correction_of(const sb_strip_side *s, size_t column, size_t row)
     return s->correction[column * s->rows + sb_strip_row((double)row + 0.5, 0, s->row_count[column], still)];
 }
 
-/* Refuses a theory, table or record whose water falls dry where there are SB_SEA_DEEP layers at rest: it is probably
-   meant otherwise. A grid computes where its water falls dry. */
-static sb_status check_depth(const sb_sim *sim, const sb_strip_side *s, size_t column, sb_error *error)
+/* Whether a column has a spacing of given water; *at: on its ground; *surface: m. */
+static bool is_wet(const sb_sim *sim, const sb_strip_side *s, size_t column, sb_vec3 *at, double *surface)
 {
-    const double along = ((double)column + 0.5) * sim->model->sea[s->side].pitch, bed = sb_strip_bed(sim, s, 0, along);
-    sb_vec3 at = sb_model_sea_place(sim->model, s->side, 0, along);
+    const double along = ((double)column + 0.5) * sim->model->sea[s->side].pitch;
     sb_sea_point point;
-    at.z = bed;
-    if (s->still_rows[column] < SB_SEA_DEEP || sim->scene->given.source == SB_GIVEN_OFFSHORE) return SB_OK;
-    sb_strip_source(sim, s, sim->state.time, at, bed, &point);
-    if (point.surface - bed >= sim->scene->resolution) return SB_OK;
-    return sb_fail(
-        error, SB_FAILED,
-        "t = %g s: the given sea at %s falls to %g m at (%g, %g), over ground at %g m, expected at least one "
-        "spacing of water: the strip would be dry",
-        sim->state.time, sb_side_names[s->side], point.surface, at.x, at.y, bed);
+    *at = sb_model_sea_place(sim->model, s->side, 0, along);
+    at->z = sb_strip_bed(sim, s, 0, along);
+    sb_strip_source(sim, s, sim->state.time, *at, at->z, &point);
+    *surface = point.surface;
+    return point.surface - at->z >= sim->scene->resolution;
+}
+
+/* Refuses a theory, table or record whose water leaves a side dry everywhere that has SB_SEA_DEEP layers at rest: it is
+   probably meant otherwise. Its shore may recede along the side. A grid computes where its water falls dry. */
+static sb_status check_depth(const sb_sim *sim, const sb_strip_side *s, sb_error *error)
+{
+    size_t deepest = SIZE_MAX;
+    sb_vec3 at, lowest = {0};
+    double surface, left = 0;
+    if (sim->scene->given.source == SB_GIVEN_OFFSHORE) return SB_OK;
+    for (size_t column = 0; column < s->columns; column++) {
+        if (s->still_rows[column] < SB_SEA_DEEP) continue;
+        if (is_wet(sim, s, column, &at, &surface)) return SB_OK;
+        if (deepest != SIZE_MAX && at.z >= lowest.z) continue;
+        deepest = column;
+        lowest = at;
+        left = surface;
+    }
+    if (deepest == SIZE_MAX) return SB_OK;
+    return sb_fail(error, SB_FAILED,
+                   "t = %g s: the given sea at %s falls to %g m at (%g, %g), over ground at %g m, the lowest there, "
+                   "expected at least one spacing of water: the strip would be dry",
+                   sim->state.time, sb_side_names[s->side], left, lowest.x, lowest.y, lowest.z);
 }
 
 /* A column in one step: its rows, and the sides of the water of a particle in them. */
@@ -254,8 +271,7 @@ static sb_status advance_column(sb_sim *sim, sb_strip_side *s, edge *near, size_
     const double pitch = sim->model->sea[s->side].pitch, along = ((double)column + 0.5) * pitch;
     const double width = sim->constant.dimension == 2 ? 1 : pitch;
     sb_given given;
-    sb_status status = check_depth(sim, s, column, error);
-    if (status != SB_OK) return status;
+    sb_status status = SB_OK;
     sb_strip_given(sim, s, sim->state.time, 0, along, sim->scene->sea.level, &given);
     const double depth = given.surface - given.bed;
     set_rows(sim, s, column, depth);
@@ -284,6 +300,7 @@ sb_status sb_stage_inflow(sb_sim *sim, sb_error *error)
         count_leaving(sim, s);
         edge near = {0};
         if (find_edge(sim, s, &near) != 0) status = sb_fail_memory(error, "particles at a side");
+        if (status == SB_OK) status = check_depth(sim, s, error);
         for (size_t column = 0; column < s->columns && status == SB_OK; column++)
             status = advance_column(sim, s, &near, column, error);
         status = sim->exchange->agree(sim, status, error);

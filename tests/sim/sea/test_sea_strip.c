@@ -360,6 +360,48 @@ static void bad_input_is_refused(void **state)
     assert_refused(&f, still, "the lowest ground there");
 }
 
+/* Ground is what stands below the still level, or reaches above it; not what hangs over the water. */
+static void walls_are_ground_and_decks_are_not(void **state)
+{
+    (void)state;
+    static const char *const low = "{" SOLITARY ", height: 0.1}", *const tall = "{" SOLITARY ", height: 0.4}";
+    shore_form f = {2, 0.1, 1, {6, 0, 1.5}, "{x_min: sea}", NULL};
+    f.bodies = "[{name: land, shape: box, min: [-1, -1, -1], max: [0.5, 1, 4]}]";
+    assert_refused(&f, low, "the lowest ground there is at 1.5 m"); /* the domain's top */
+    f.bodies = "[{name: floor, shape: box, min: [-1, -1, -1], max: [7, 1, 0.2]}, "
+               "{name: deck, shape: box, min: [-1, -1, 1.2], max: [1, 1, 1.4]}]";
+    assert_refused(&f, tall, "body \"deck\" hangs over the given water there, at 1.2 m");
+    shore s;
+    shore_make(&s, &f, low);
+    for (size_t c = 0; c < s.model.sea[SB_X_MIN].across; c++) assert_near(s.model.sea[SB_X_MIN].bed[c], 0.2, 1e-9);
+    shore_free(&s);
+    f.bodies = "[{name: lower, shape: box, min: [-1, -1, -1], max: [7, 1, 0.3]}, "
+               "{name: upper, shape: box, min: [3, -1, 0.3], max: [7, 1, 1.1]}, "
+               "{name: top, shape: box, min: [3, -1, 1.1], max: [7, 1, 1.25]}]";
+    f.sides = "{x_max: sea}";
+    assert_refused(&f, still, "the lowest ground there is at 1.25 m"); /* bodies on each other */
+}
+
+/* A shore that recedes along a side: the deeper part of it keeps its water. */
+static void a_side_may_fall_dry_in_part(void **state)
+{
+    (void)state;
+    const shore_form form = {3,
+                             0.1,
+                             1,
+                             {2, 2, 1.5},
+                             "{x_min: sea}",
+                             "[{name: slope, shape: box, min: [-1, -3, -2], max: [4, 6, 0], rotate: [20, 0, 0], "
+                             "translate: [0, 0, 0.1]}]"};
+    shore s;
+    shore_make(&s, &form,
+               "{source: theory, wave: components, depth: 0.9, ramp: 0.5, components: [{amplitude: 0.35, period: 6}]}");
+    sb_sim *sim = shore_sim(&s);
+    shore_run(sim, 3.2); /* the trough is at 3 s */
+    sb_sim_destroy(sim);
+    shore_free(&s);
+}
+
 /* A wave whose trough is deeper than the water. */
 static void a_source_that_dries_the_strip_ends_the_run(void **state)
 {
@@ -390,6 +432,8 @@ int main(void)
         cmocka_unit_test(short_waves_leave),
         cmocka_unit_test(threads_and_resuming_do_not_matter),
         cmocka_unit_test(bad_input_is_refused),
+        cmocka_unit_test(walls_are_ground_and_decks_are_not),
+        cmocka_unit_test(a_side_may_fall_dry_in_part),
         cmocka_unit_test(a_source_that_dries_the_strip_ends_the_run),
     };
     omp_set_num_threads(1); /* small scenes */
