@@ -109,7 +109,7 @@ static const sb_key keys[] = {
      .applies = UPLIFT, .only = "an uplift", .derived = "none",
      .doc = "Grid of heights that are added to the still surface at the start; 0 where it has none."},
     {.name = "wave", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_offshore_settings, wave), .table = &sb_wave_table,
-     .doc = "Wave at t = 0 by wave theory."},
+     .doc = "Wave at t = 0 by wave theory: `solitary` or `standing`."},
     {.name = "sides", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_offshore_settings, side), .table = &side_table,
      .doc = "Kinds of the grid's sides."},
     {.name = "paddle", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_offshore_settings, paddle), .table = &sb_grid_paddle_table,
