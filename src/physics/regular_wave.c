@@ -1,12 +1,14 @@
 /* Linear and second-order waves, and the choice among the theories. */
 #include "physics/regular_wave.h"
 
+#include "physics/breaking.h"
+
 #include <math.h>
 #include <stdbool.h>
 
-static sb_status check_steepness(const sb_regular_wave *wave, sb_error *error)
+static sb_status check_height(const sb_regular_wave *wave, sb_error *error)
 {
-    const double most = 0.142 * wave->length * tanh(wave->number * wave->depth);
+    const double most = sb_breaking_height(wave->number, wave->depth);
     if (wave->height <= most) return SB_OK;
     return sb_fail(error, SB_BAD_INPUT,
                    "a wave of %g m with a period of %g s on %g m breaks, expected a height of at most %.3g m",
@@ -45,7 +47,7 @@ sb_status sb_regular_wave_create(sb_wave_order order, double height, double peri
     made.length = 2 * M_PI / made.number;
     made.celerity = made.length / period;
     made.ursell = height * made.length * made.length / (depth * depth * depth);
-    sb_status status = check_steepness(&made, error);
+    sb_status status = check_height(&made, error);
     if (status == SB_OK) status = prepare(&made, error);
     if (status == SB_OK) *wave = made;
     return status;

@@ -24,8 +24,8 @@ typedef struct sb_regular_wave {
     sb_cnoidal cnoidal;
 } sb_regular_wave;
 
-/* Finds the wave. All values > 0. SB_BAD_INPUT for a wave that breaks by its steepness [Miche 1944: H = 0.142 L tanh
-   kd] and for an order that is not valid for it: second order beyond the limit, cnoidal where no such wave exists. */
+/* Finds the wave. All values > 0. SB_BAD_INPUT for a wave that breaks (breaking.h) and for an order that is not valid
+ * for it: second order beyond the limit, cnoidal where no such wave exists. */
 sb_status sb_regular_wave_create(sb_wave_order order, double height, double period, double depth, double gravity,
                                  sb_regular_wave *wave, sb_error *error);
 

@@ -1,5 +1,6 @@
 #include "physics/stokes.h"
 
+#include "physics/breaking.h"
 #include "physics/regular_wave.h"
 
 #include <math.h>
@@ -54,7 +55,7 @@ static table coefficients(double kd)
 
 static sb_status check(const sb_stokes *wave, sb_error *error)
 {
-    const double most = 0.142 * wave->length * tanh(wave->number * wave->depth), d = wave->depth;
+    const double most = sb_breaking_height(wave->number, wave->depth), d = wave->depth;
     const double ursell = wave->height * wave->length * wave->length / (d * d * d);
     const double limit = wave->order == 1 ? (double)INFINITY : wave->order == 2 ? SB_URSELL_LIMIT : SB_STOKES_URSELL;
     if (!(wave->height <= most))

@@ -20,9 +20,8 @@ typedef struct sb_stokes {
 /* H L^2/d^3 up to which the fifth order is accurate [Fenton 1990]. */
 #define SB_STOKES_URSELL 40.0
 
-/* Finds the wave of a length. All values > 0. SB_BAD_INPUT for a wave that breaks by its steepness [Miche 1944: H =
-   0.142 L tanh kd], or that is too long: beyond SB_STOKES_URSELL, for the second order beyond SB_URSELL_LIMIT; the
-   first order is given for all lengths. */
+/* Finds the wave of a length. All values > 0. SB_BAD_INPUT for a wave that breaks (breaking.h), or that is too long:
+   beyond SB_STOKES_URSELL, for the second order beyond SB_URSELL_LIMIT; the first order is given for all lengths. */
 sb_status sb_stokes_create(int order, double height, double length, double depth, double gravity, sb_stokes *wave,
                            sb_error *error);
 

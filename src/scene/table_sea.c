@@ -1,3 +1,4 @@
+#include "physics/breaking.h"
 #include "physics/solitary_exact.h"
 #include "scene/reader.h"
 
@@ -120,8 +121,6 @@ static const sb_key keys[] = {
 };
 /* clang-format on */
 
-static const double HIGHEST = 0.8332; /* solitary wave over its depth, see table_water.c */
-
 static void fill_origin(const sb_domain *domain, double direction, double origin[2])
 {
     const double turn = direction * M_PI / 180;
@@ -179,12 +178,12 @@ static sb_status finish_theory(sb_reader *reader, const sb_yaml *map, sb_given_s
         fill_origin(&scene->domain, sum ? given->components[0].direction : given->direction, given->origin);
     if (flat) given->origin[1] = 0;
     if (!sb_yaml_child(map, "ramp")) given->ramp = 2 * longest_period(given);
-    if (given->wave == SB_GIVEN_SOLITARY && given->height > HIGHEST * given->depth * (1 + 1e-9))
+    if (given->wave == SB_GIVEN_SOLITARY && given->height > SB_SOLITARY_HIGHEST * given->depth * (1 + 1e-9))
         return sb_reader_fail(
             reader, map, "height",
             "%g m in a depth of %g m: a solitary wave cannot be higher than %g of its depth, expected "
             "at most %g m",
-            given->height, given->depth, HIGHEST, HIGHEST * given->depth);
+            given->height, given->depth, SB_SOLITARY_HIGHEST, SB_SOLITARY_HIGHEST * given->depth);
     if (given->wave == SB_GIVEN_SOLITARY && given->theory == SB_GIVEN_EXACT) return check_exact(reader, map, given);
     return given->wave == SB_GIVEN_REGULAR ? check_regular(reader, map, given) : SB_OK;
 }

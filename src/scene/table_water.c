@@ -1,3 +1,4 @@
+#include "physics/breaking.h"
 #include "scene/reader.h"
 
 #include <math.h>
@@ -130,20 +131,16 @@ static const sb_key wave_keys[] = {
 };
 /* clang-format on */
 
-/* Greatest height of a solitary wave over its depth [Longuet-Higgins and Fenton 1974: 0.827; Hunter and
-   Vanden-Broeck 1983: 0.8332]. */
-static const double HIGHEST = 0.8332;
-
 static sb_status finish_wave(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_initial_wave *wave = item;
     if (wave->kind == SB_INITIAL_SOLITARY && wave->direction == 0)
         return sb_reader_fail(reader, map, "direction", "0 is not a direction, expected 1 or -1");
-    if (wave->kind == SB_INITIAL_SOLITARY && wave->height > HIGHEST * wave->depth * (1 + 1e-9))
+    if (wave->kind == SB_INITIAL_SOLITARY && wave->height > SB_SOLITARY_HIGHEST * wave->depth * (1 + 1e-9))
         return sb_reader_fail(
             reader, map, "height",
             "%g m in a depth of %g m: a solitary wave cannot be higher than %g of its depth, expected at most %g m",
-            wave->height, wave->depth, HIGHEST, HIGHEST * wave->depth);
+            wave->height, wave->depth, SB_SOLITARY_HIGHEST, SB_SOLITARY_HIGHEST * wave->depth);
     if (wave->kind == SB_INITIAL_STANDING && wave->height >= wave->depth)
         return sb_reader_fail(reader, map, "height", "%g m would uncover the bed, expected less than the depth of %g m",
                               wave->height, wave->depth);

@@ -167,6 +167,27 @@ static void regular_waves_choose_their_theory(void **state)
     assert_non_null(strstr(error.text, "breaks"));
 }
 
+/* Long waves break at the height of the highest solitary wave, 0.8332 of the depth, before the 0.89 of Miche. */
+static void long_waves_break_below_the_highest_solitary_wave(void **state)
+{
+    (void)state;
+    sb_wavemaker_parameters p = parameters_of("regular");
+    p.depth = 1;
+    p.period = 12;
+    for (int auto_too = 0; auto_too < 2; auto_too++) {
+        sb_error error = {0};
+        void *none = NULL;
+        p.theory = auto_too ? SB_WAVE_AUTO : SB_WAVE_CNOIDAL;
+        p.height = 0.84;
+        assert_int_equal(p.kind->create(&p, &none, &error), SB_BAD_INPUT);
+        if (!strstr(error.text, "breaks, expected a height of at most 0.833 m")) fail_msg("%s", error.text);
+        p.height = 0.83;
+        sb_wave_train *train = train_of(&p);
+        assert_string_equal(train->facts.theory, "cnoidal");
+        sb_wave_train_destroy(train);
+    }
+}
+
 /* dX/dt is the mean velocity C eta/(d + eta) of the wave at the paddle, at which the phase that it returns is. */
 static void cnoidal_piston_moves_with_the_water(void **state)
 {
@@ -333,6 +354,7 @@ int main(void)
         cmocka_unit_test(one_frequency_is_absorbed_entirely),
         cmocka_unit_test(plain_gain_reflects_as_known),
         cmocka_unit_test(regular_waves_choose_their_theory),
+        cmocka_unit_test(long_waves_break_below_the_highest_solitary_wave),
         cmocka_unit_test(cnoidal_piston_moves_with_the_water),
         cmocka_unit_test(irregular_waves_have_their_height_and_peak),
         cmocka_unit_test(focused_waves_meet_at_their_place_and_time),

@@ -1,0 +1,29 @@
+/* Heights at which waves on constant depth break. */
+#ifndef SB_PHYSICS_BREAKING_H
+#define SB_PHYSICS_BREAKING_H
+
+#include "base/status.h"
+
+/* Greatest height of a solitary wave over its depth [Longuet-Higgins and Fenton 1974: 0.827; Hunter and Vanden-Broeck
+   1983: 0.8332]. Waves of constant form approach it with their length. */
+#define SB_SOLITARY_HIGHEST 0.8332
+
+/* Returns the greatest height in m of a wave of the number k: 0.142 L tanh kd [Miche 1944], and no more than that of a
+   solitary wave, which is lower for waves longer than 13.8 depths. */
+double sb_breaking_height(double number, double depth);
+
+/* The height of a sum of linear waves. Begin with {0}. */
+typedef struct sb_sum_height {
+    double square, sum; /* m^2, m: of the amplitudes */
+    double highest;     /* m, the greatest amplitude */
+    double number;      /* 1/m, of the wave that has it; of equal ones the longest */
+} sb_sum_height;
+
+void sb_sum_height_add(sb_sum_height *all, double amplitude, double number);
+/* Returns the significant height in m, four standard deviations; or twice the sum of the amplitudes where that is less,
+   which is the height of a single wave. */
+double sb_sum_height_of(const sb_sum_height *all);
+/* SB_BAD_INPUT if that height is above the one at which the highest of the waves would break. */
+sb_status sb_sum_height_check(const sb_sum_height *all, double depth, sb_error *error);
+
+#endif
