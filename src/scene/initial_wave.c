@@ -1,4 +1,5 @@
 /* The wave on the water at the start. */
+#include "physics/breaking.h"
 #include "physics/dispersion.h"
 #include "scene/reader.h"
 
@@ -95,6 +96,29 @@ static sb_status check_length(sb_reader *reader, const sb_yaml *map, const char 
                           length, extent, extent / waves);
 }
 
+/* Refuses components that break, each alone, or those of one direction together. Waves that meet do not break at that
+   height: two equal ones make a standing wave, which is higher. */
+static sb_status check_breaking(sb_reader *reader, const sb_yaml *map, const sb_initial_wave *wave)
+{
+    sb_sum_height forward = {0}, backward = {0};
+    sb_error why = {0};
+    for (size_t i = 0; i < wave->component_count; i++) {
+        const sb_initial_component *c = &wave->components[i];
+        const double number = 2 * M_PI / c->wavelength, most = sb_breaking_height(number, wave->depth);
+        if (2 * c->amplitude > most)
+            return sb_reader_fail(
+                reader, map, "components",
+                "item %zu with an amplitude of %g m and a wavelength of %g m on %g m breaks, expected "
+                "an amplitude of at most %.3g m",
+                i, c->amplitude, c->wavelength, wave->depth, 0.5 * most);
+        sb_sum_height_add(c->direction < 0 ? &backward : &forward, c->amplitude, number);
+    }
+    if (sb_sum_height_check(&forward, wave->depth, &why) == SB_OK &&
+        sb_sum_height_check(&backward, wave->depth, &why) == SB_OK)
+        return SB_OK;
+    return sb_reader_fail(reader, map, "components", "%s", why.text);
+}
+
 sb_status sb_initial_wave_finish(sb_reader *reader, const sb_yaml *map, sb_initial_wave *wave)
 {
     static const int orders[] = {1, 2, 5};
@@ -118,5 +142,5 @@ sb_status sb_initial_wave_finish(sb_reader *reader, const sb_yaml *map, sb_initi
         if (status != SB_OK) return status;
         wave->height = fmax(wave->height, 2 * c->amplitude);
     }
-    return SB_OK;
+    return check_breaking(reader, map, wave);
 }

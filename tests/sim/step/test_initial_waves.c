@@ -154,6 +154,14 @@ static void unfit_waves_are_refused(void **state)
         {"kind: components", "components"},
         {"kind: components, components: []", "at least one"},
         {"kind: components, components: [{amplitude: 0.1, wavelength: 4}]", "a whole number of times"},
+        {"kind: components, components: [{amplitude: 0.1, wavelength: 6.283185307179586}, {amplitude: 0.5, wavelength: "
+         "6.283185307179586}]",
+         "components: item 1 with an amplitude of 0.5 m and a wavelength of 6.28319 m on 1 m breaks, expected an "
+         "amplitude of at most 0.34 m"},
+        {"kind: components, components: [{amplitude: 0.3, wavelength: 6.283185307179586}, {amplitude: 0.1, wavelength: "
+         "3.141592653589793}]",
+         "components: the waves together have a significant height of 0.8 m and break: the highest is 6.28 m long on 1 "
+         "m, expected a significant height of at most 0.68 m"},
         {"kind: standing, height: 0.1, wavelength: 4, order: linear", "does not apply"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
@@ -164,11 +172,29 @@ static void unfit_waves_are_refused(void **state)
     }
 }
 
+/* One component may be as high as a regular wave; two that meet may be as high each. */
+static void waves_that_do_not_break_are_accepted(void **state)
+{
+    (void)state;
+    static const char *const waves[] = {
+        "kind: components, components: [{amplitude: 0.339, wavelength: 6.283185307179586}]",
+        "kind: components, components: [{amplitude: 0.3, wavelength: 6.283185307179586}, {amplitude: 0.3, wavelength: "
+        "6.283185307179586, direction: -1}]",
+    };
+    for (size_t k = 0; k < sizeof waves / sizeof *waves; k++) {
+        sb_scene scene;
+        sb_error error = {0};
+        if (read_scene(0.1, waves[k], &scene, &error) != SB_OK) fail_msg("%s", error.text);
+        sb_scene_free(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sums_have_their_parts),
         cmocka_unit_test(unfit_waves_are_refused),
+        cmocka_unit_test(waves_that_do_not_break_are_accepted),
         cmocka_unit_test(regular_waves_travel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
