@@ -51,14 +51,45 @@ static sb_status read_line(reading *r, char *line, size_t number, bool *header, 
     return SB_OK;
 }
 
+/* Finds the first byte that no text has, and its line. */
+static bool find_control(const char *text, size_t length, size_t *line, unsigned *byte)
+{
+    *line = 1;
+    for (size_t i = 0; i < length; i++) {
+        *byte = (unsigned char)text[i];
+        if (*byte == '\n') ++*line;
+        if (*byte == 0x7f || (*byte < ' ' && !(*byte >= '\t' && *byte <= '\r'))) return true;
+    }
+    return false;
+}
+
+sb_status sb_number_text_read(const char *path, char **text, sb_error *error)
+{
+    char *read = NULL;
+    size_t length, line;
+    unsigned byte;
+    sb_status status = sb_text_read(path, FILE_LIMIT, &read, &length, error);
+    if (status == SB_OK && find_control(read, length, &line, &byte))
+        status =
+            byte == 0
+                ? sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: contains a zero byte, expected a text table", path, line)
+                : sb_fail(error, SB_BAD_INPUT,
+                          "%.500s:%zu: contains the control character 0x%02x, expected a text table", path, line, byte);
+    if (status == SB_OK)
+        *text = read;
+    else
+        sb_free(read);
+    return status;
+}
+
 sb_status sb_number_rows_read(const char *path, size_t columns, const char *expected, double **values, size_t *rows,
                               sb_error *error)
 {
     char *text = NULL;
-    size_t length, number = 1;
+    size_t number = 1;
     bool header = false;
     reading r = {.path = path, .expected = expected, .columns = columns};
-    sb_status status = sb_text_read(path, FILE_LIMIT, &text, &length, error);
+    sb_status status = sb_number_text_read(path, &text, error);
     for (char *line = text; status == SB_OK && line; number++) {
         char *newline = strchr(line, '\n');
         if (newline) *newline = '\0';

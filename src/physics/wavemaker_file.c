@@ -1,14 +1,14 @@
 /* A paddle that follows a table of lines "t x" (s after the start, m), for example one measured in a flume. */
 #include "base/columns.h"
-#include "base/file.h"
 #include "base/memory.h"
+#include "physics/number_rows.h"
 #include "physics/wavemaker.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILE_LIMIT = 64 << 20, NUMBER_LIMIT = 1000000000 };
+enum { NUMBER_LIMIT = 1000000000 };
 
 typedef struct knot {
     double t, x, slope; /* s, m above the first, m/s */
@@ -117,14 +117,11 @@ static sb_status create(const sb_wavemaker_parameters *parameters, void **state,
 {
     const char *path = parameters->file;
     char *text = NULL;
-    size_t length;
-    sb_status status = sb_text_read(path, FILE_LIMIT, &text, &length, error);
+    sb_status status = sb_number_text_read(path, &text, error);
     if (status != SB_OK) return status;
     table *made = sb_alloc(1, sizeof *made);
     if (!made)
         status = sb_fail_memory(error, path);
-    else if (strlen(text) != length)
-        status = sb_fail(error, SB_BAD_INPUT, "%.500s: contains a zero byte, expected plain text", path);
     else
         status = read_lines(made, text, path, error);
     sb_free(text);

@@ -60,20 +60,34 @@ typedef struct series {
 
 enum { LEAST_ROWS = 8, MOST_ROWS = 20000 };
 
-static sb_status check_series(const char *path, series *s, sb_error *error)
+static sb_status check_times(const char *path, series *s, sb_error *error)
 {
-    if (s->rows < LEAST_ROWS || s->rows > MOST_ROWS)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: %zu rows, expected %d to %d", path, s->rows, LEAST_ROWS,
-                       MOST_ROWS);
+    for (size_t i = 1; i < s->rows; i++)
+        if (!(s->values[2 * i] > s->values[2 * i - 2]))
+            return sb_fail(error, SB_BAD_INPUT,
+                           "%.500s: row %zu: time %g s does not follow %g s, expected increasing times", path, i + 1,
+                           s->values[2 * i], s->values[2 * i - 2]);
     s->step = (s->values[2 * (s->rows - 1)] - s->values[0]) / (double)(s->rows - 1);
     for (size_t i = 1; i < s->rows; i++) {
         const double step = s->values[2 * i] - s->values[2 * i - 2];
-        if (!(s->step > 0) || fabs(step - s->step) > 0.02 * s->step)
+        if (fabs(step - s->step) > 0.02 * s->step)
             return sb_fail(error, SB_BAD_INPUT,
                            "%.500s: row %zu follows after %g s, expected equal steps of about %g s", path, i + 1, step,
                            s->step);
     }
     return SB_OK;
+}
+
+static sb_status check_series(const char *path, series *s, sb_error *error)
+{
+    if (s->rows < LEAST_ROWS || s->rows > MOST_ROWS)
+        return sb_fail(error, SB_BAD_INPUT, "%.500s: %zu rows, expected %d to %d", path, s->rows, LEAST_ROWS,
+                       MOST_ROWS);
+    /* The mean of equal values is rounded, so that its Fourier components are not 0. */
+    bool constant = true;
+    for (size_t i = 1; i < s->rows && constant; i++) constant = s->values[2 * i + 1] == s->values[1];
+    if (constant) return sb_fail(error, SB_BAD_INPUT, "%.500s: the surface is constant, expected waves", path);
+    return check_times(path, s, error);
 }
 
 /* The Fourier coefficient n of the series less its mean: A in Re(A exp(2 pi i n t/T)), T = rows * step. */

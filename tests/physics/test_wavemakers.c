@@ -415,6 +415,42 @@ static void file_refuses_bad_tables(void **state)
     make_good_table(NULL);
 }
 
+static void refuses_file(const char *kind, const char *path, const char *text, size_t length, const char *expected)
+{
+    sb_wavemaker_parameters parameters = good_parameters(sb_wavemaker_find(kind));
+    sb_paddle paddle;
+    sb_error error = {0};
+    write_file(path, text, length);
+    assert_int_equal(sb_paddle_create(&parameters, &paddle, &error), SB_BAD_INPUT);
+    if (strncmp(error.text, path, strlen(path)) != 0 || !strstr(error.text, expected))
+        fail_msg("%s\n  expected: %s", error.text, expected);
+}
+
+/* Files of signal and components that are no tables, or have no waves. */
+static void signals_refuse_bad_tables(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *expected;
+    } cases[] = {
+        {"0 0\n1 1\n2 0\n3 1\n2 0\n5 1\n6 0\n7 1\n", "row 5: time 2 s does not follow 3 s, expected increasing times"},
+        {"7 0\n6 1\n5 0\n4 1\n3 0\n2 1\n1 0\n0 1\n", "row 2: time 6 s does not follow 7 s, expected increasing times"},
+        {"0 0\n0 1\n1 0\n2 1\n3 0\n4 1\n5 0\n6 1\n", "row 2: time 0 s does not follow 0 s"},
+        {"0 0\n1 1\n2 0\n3 1\n4.1 0\n5 1\n6 0\n7 1\n", "row 5 follows after 1.1 s, expected equal steps of about 1 s"},
+        {"0 .1\n1 .1\n2 .1\n3 .1\n4 .1\n5 .1\n6 .1\n7 .1\n8 .1\n9 .1\n", "the surface is constant, expected waves"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        refuses_file("signal", SIGNAL, cases[i].text, strlen(cases[i].text), cases[i].expected);
+    static const char garbage[] = "\x80h\n\x01\x02 h 3\n", zero[] = "0 0\n1 0.1\0"
+                                                                    "5\n2 0\n";
+    refuses_file("signal", SIGNAL, garbage, sizeof garbage - 1,
+                 ":2: contains the control character 0x01, expected a text table");
+    refuses_file("signal", SIGNAL, zero, sizeof zero - 1, ":2: contains a zero byte, expected a text table");
+    refuses_file("components", WAVES, zero, sizeof zero - 1, ":2: contains a zero byte, expected a text table");
+    refuses_file("file", TABLE, garbage, sizeof garbage - 1, ":2: contains the control character 0x01");
+    make_good_table(NULL);
+}
+
 static void paddle_waits_for_its_start(void **state)
 {
     (void)state;
@@ -477,6 +513,7 @@ int main(void)
         cmocka_unit_test(file_gives_the_speed_of_a_smooth_table),
         cmocka_unit_test(file_reads_headers_and_commas),
         cmocka_unit_test(file_refuses_bad_tables),
+        cmocka_unit_test(signals_refuse_bad_tables),
         cmocka_unit_test(paddle_waits_for_its_start),
         cmocka_unit_test(paddle_returns_slowly_and_smoothly),
     };
