@@ -1,9 +1,20 @@
 /* Waves by a table: a list of linear waves, or the surface that a gauge has measured. */
 #include "base/memory.h"
+#include "physics/breaking.h"
 #include "physics/number_rows.h"
 #include "physics/wave_train.h"
 
 #include <math.h>
+
+/* The waves of a train together, by the rule of irregular waves. */
+static sb_status check_sum(const sb_wavemaker_parameters *p, const sb_wave_train *train, sb_error *error)
+{
+    sb_sum_height all = {0};
+    sb_error why = {0};
+    for (size_t i = 0; i < train->count; i++) sb_sum_height_add(&all, train->part[i].amplitude, train->part[i].number);
+    if (sb_sum_height_check(&all, p->depth, &why) == SB_OK) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT, "%.500s: %.300s", p->file, why.text);
+}
 
 static sb_status check_wave(const sb_wavemaker_parameters *p, size_t row, const double v[3], sb_error *error)
 {
@@ -39,6 +50,7 @@ static sb_status create_components(const sb_wavemaker_parameters *p, void **stat
     sb_free(values);
     if (status == SB_OK && !(square > 0))
         status = sb_fail(error, SB_BAD_INPUT, "%.500s: all amplitudes are 0, expected a wave", p->file);
+    if (status == SB_OK) status = check_sum(p, train, error);
     if (status != SB_OK) {
         sb_wave_train_destroy(train);
         return status;
@@ -141,6 +153,7 @@ static sb_status create_signal(const sb_wavemaker_parameters *p, void **state, s
     if (train) fill_parts(&s, p->distance, train);
     if (status == SB_OK && !(train->facts.height > 0))
         status = sb_fail(error, SB_BAD_INPUT, "%.500s: the surface is constant, expected waves", p->file);
+    if (status == SB_OK) status = check_sum(p, train, error);
     const double length = s.step * (double)s.rows;
     sb_free(s.values);
     if (status != SB_OK) {

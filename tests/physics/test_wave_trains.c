@@ -289,6 +289,50 @@ static void signal_is_made_at_its_distance(void **state)
     sb_wave_train_destroy(train);
 }
 
+/* The waves of an irregular sea as a list and as a signal break where the sea does: Hs 0.6 m of 1.5 s on 1 m, whose
+   limit is 0.454 m. One wave may be higher: its height is 2a. */
+static void sums_break_however_they_are_given(void **state)
+{
+    (void)state;
+    char list[] = SB_BINARY_DIR "/wave-train-list.txt", signal[] = SB_BINARY_DIR "/wave-train-high.txt";
+    sb_wavemaker_parameters p = parameters_of("irregular");
+    p.depth = 1;
+    p.period = 1.5;
+    for (int high = 0; high < 2; high++) {
+        p.kind = sb_wavemaker_find("irregular");
+        p.height = 0.42;
+        sb_wave_train *sea = train_of(&p);
+        const double scale = high ? 0.6 / 0.42 : 1;
+        FILE *waves = fopen(list, "w"), *series = fopen(signal, "w");
+        assert_non_null(waves);
+        assert_non_null(series);
+        for (size_t i = 0; i < sea->count; i++)
+            fprintf(waves, "%.9g %.9g %g\n", scale * sea->part[i].amplitude, 2 * M_PI / sea->part[i].omega,
+                    sea->part[i].phase * 180 / M_PI);
+        for (int i = 0; i < 3000; i++) fprintf(series, "%.9g %.9g\n", 0.1 * i, scale * surface_of(sea, 0.1 * i, 0));
+        assert_int_equal(fclose(waves), 0);
+        assert_int_equal(fclose(series), 0);
+        sb_wave_train_destroy(sea);
+        for (int k = 0; k < 2; k++) {
+            p.kind = sb_wavemaker_find(k == 0 ? "components" : "signal");
+            p.file = k == 0 ? list : signal;
+            void *train = NULL;
+            sb_error error = {0};
+            const sb_status status = p.kind->create(&p, &train, &error);
+            if (status != (high ? SB_BAD_INPUT : SB_OK) || (high && !strstr(error.text, "together have a significant")))
+                fail_msg("%s: status %d: %s", p.kind->name, (int)status, error.text);
+            sb_wave_train_destroy(train);
+        }
+    }
+    FILE *one = fopen(list, "w");
+    assert_non_null(one);
+    fputs("0.22 1.5 0\n", one);
+    assert_int_equal(fclose(one), 0);
+    p.kind = sb_wavemaker_find("components");
+    p.file = list;
+    sb_wave_train_destroy(train_of(&p));
+}
+
 /* Root mean square of the reflected share over the energy of a train. */
 static double reflected_of(const sb_wave_train *train, const sb_absorbing_filter *filter, double distance)
 {
@@ -359,6 +403,7 @@ int main(void)
         cmocka_unit_test(irregular_waves_have_their_height_and_peak),
         cmocka_unit_test(focused_waves_meet_at_their_place_and_time),
         cmocka_unit_test(signal_is_made_at_its_distance),
+        cmocka_unit_test(sums_break_however_they_are_given),
         cmocka_unit_test(spectra_are_absorbed),
         cmocka_unit_test(surface_near_the_paddle_contains_all_waves),
     };
