@@ -2,7 +2,7 @@
 #ifndef SB_APP_CHECK_TENSION_H
 #define SB_APP_CHECK_TENSION_H
 
-#include "app/warnings.h"
+#include "app/warning_visit.h"
 #include "geometry/model/model.h"
 #include "output/json.h"
 

@@ -1,6 +1,7 @@
 #include "app/warnings.h"
 
 #include "app/check_tension.h"
+#include "app/wave_warnings.h"
 #include "base/memory.h"
 #include "physics/dispersion.h"
 #include "physics/reflection.h"
@@ -132,7 +133,8 @@ sb_status sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void
     if (train && !sb_scene_repeats(scene, 0))
         visit(context, "water.wave: the sides along x are not periodic: the waves are reflected or end there, expected "
                        "sides of kind periodic");
-    const sb_status status = warn_of_reflections(scene, visit, context, error);
+    sb_status status = sb_wave_warnings(scene, visit, context, error);
+    if (status == SB_OK) status = warn_of_reflections(scene, visit, context, error);
     sb_tension_warnings(scene, visit, context);
     if (scene->measure.interval > scene->duration) {
         snprintf(text, sizeof text,

@@ -2,11 +2,10 @@
 #ifndef SB_APP_WARNINGS_H
 #define SB_APP_WARNINGS_H
 
+#include "app/warning_visit.h"
 #include "geometry/model/model.h"
 
-typedef void sb_warning_visit(void *context, const char *text);
-
-/* Calls visit for each warning, a line without its newline. Warnings about meshes and sampling are in the model.
+/* Calls visit for each warning. Warnings about meshes and sampling are in the model.
    SB_FAILED without memory for one of them. */
 sb_status sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context, sb_error *error);
 

@@ -9,6 +9,11 @@
 #define TANK                                                                                                           \
     "title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\nmeasure: {interval: 0.01}\noutput: {plots: false}\n"
 
+#define FLUME(law)                                                                                                     \
+    TANK "domain: {min: [-1, 0], max: [4, 0.8]}\nwater: {level: 0.5, seed: [1, 0.2]}\n"                                \
+         "bodies: [{name: paddle, shape: box, min: [-0.5, 0], max: [0, 0.7]}]\n"                                       \
+         "wavemakers: [{name: w, body: paddle, " law "}]\n"
+
 /* Number of lines that contain both texts. */
 static int lines_with(const char *text, const char *first, const char *second)
 {
@@ -71,10 +76,23 @@ static void check_and_run_give_the_same_warnings(void **state)
          "output: {plots: false, particle_pieces: true}\n",
          "output.particle_pieces: true, but the run writes no particle files",
          "expected output.particle_interval above"},
+        {FLUME("kind: components, depth: 0.5, file: list.txt"),
+         "wave maker \"w\": a wave height of 0.04 m is 0.8 times the particle spacing", "expected 5 times or more"},
+        {FLUME("kind: signal, depth: 0.5, file: signal.txt, distance: 1"), "wave maker \"w\": a wave height of 0.028",
+         "expected 5 times or more"},
+        {FLUME("kind: signal, depth: 0.5, file: signal.txt, distance: 3000"),
+         "wave maker \"w\": its distance of 3000 m is outside of the domain, which is 5 m long",
+         "expected a shorter distance or a longer domain"},
+        {FLUME("kind: focused, height: 0.1, depth: 0.5, period: 1.5, distance: 800, focus: 9000"),
+         "wave maker \"w\": its distance of 800 m is outside of the domain", "expected a shorter distance"},
+        {FLUME("kind: focused, height: 0.1, depth: 0.5, period: 1.5, distance: 4, focus: 0.1"),
+         "wave maker \"w\": its focus at 0.1 s is too early", "expected a focus of at least "},
         {"title: t\ndimensions: 2\nduration: 0.02\noutput: {plots: false}\ndomain: {min: [0, -1], max: [40, 1]}\n"
          "offshore: {cell: 0.2, level: 0, wave: {kind: solitary, height: 0.1, depth: 1, position: -4}}\n",
          "offshore.wave.position: the crest at x = -4 m begins outside of the grid", "expected a place from 0 to 40 m"},
     };
+    write_text("list.txt", "0.01 1.5 0\n0.01 1.2 0\n");
+    write_text("signal.txt", "0 0\n.1 .01\n.2 0\n.3 -.01\n.4 0\n.5 .01\n.6 0\n.7 -.01\n.8 0\n.9 .01\n1 0\n1.1 -.01\n");
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         write_text("doubtful.yaml", cases[k].scene);
         outcome o = RUN(0, "check", "doubtful.yaml");

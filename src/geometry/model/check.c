@@ -143,6 +143,16 @@ static sb_status check_depths(const sb_scene *scene, const sb_model_space *space
     return status;
 }
 
+/* Height of the waves of a wave maker, m: that of the scene, or the significant one of its file; 0: it makes none. */
+static double height_of(const sb_wavemaker_parameters *law)
+{
+    sb_paddle paddle = {0};
+    if (law->height > 0 || !law->kind->facts || sb_paddle_create(law, &paddle, NULL) != SB_OK) return law->height;
+    const double height = law->kind->facts(paddle.state)->height;
+    sb_paddle_destroy(&paddle);
+    return height;
+}
+
 static sb_status check_water(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     if (model->fluid_count == 0)
@@ -158,8 +168,8 @@ static sb_status check_water(const sb_scene *scene, const sb_model_space *space,
     if (status == SB_OK && scene->wave.kind != SB_INITIAL_NONE)
         status = check_height(model, "initial wave", NULL, scene->wave.height, model, error);
     for (size_t i = 0; i < scene->wavemaker_count && status == SB_OK; ++i)
-        status =
-            check_height(model, "wave maker", scene->wavemakers[i].name, scene->wavemakers[i].law.height, model, error);
+        status = check_height(model, "wave maker", scene->wavemakers[i].name, height_of(&scene->wavemakers[i].law),
+                              model, error);
     return status == SB_OK ? check_depths(scene, space, model, error) : status;
 }
 
