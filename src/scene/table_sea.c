@@ -1,4 +1,5 @@
 #include "physics/breaking.h"
+#include "physics/dispersion.h"
 #include "physics/solitary_exact.h"
 #include "scene/reader.h"
 
@@ -150,6 +151,32 @@ static sb_status check_regular(sb_reader *reader, const sb_yaml *map, const sb_g
     return sb_reader_fail(reader, map, NULL, "%s", why.text);
 }
 
+/* In depths. Long waves of the amplitude a break after L d/(3 pi a), here a hundred depths or more: at the scale of a
+   scene they are tides, which may be as high as the water is deep. */
+static const double TIDE = 1000;
+
+/* Refuses components that break, each alone or all together. Those that are tides count for themselves. */
+static sb_status check_components(sb_reader *reader, const sb_yaml *map, const sb_given_sea *given)
+{
+    sb_sum_height all = {0};
+    sb_error why = {0};
+    for (size_t i = 0; i < given->component_count; i++) {
+        const sb_given_component *c = &given->components[i];
+        const double number = sb_wave_number(c->period, given->depth, reader->scene->fluid.gravity);
+        const bool tide = 2 * M_PI / number > TIDE * given->depth;
+        const double most = tide ? 2 * given->depth : sb_breaking_height(number, given->depth);
+        if (2 * c->amplitude > most)
+            return sb_reader_fail(reader, map, "components",
+                                  "item %zu with an amplitude of %g m and a period of %g s on %g m %s, expected an "
+                                  "amplitude of at most %.3g m",
+                                  i, c->amplitude, c->period, given->depth, tide ? "uncovers the bed" : "breaks",
+                                  0.5 * most);
+        if (!tide) sb_sum_height_add(&all, c->amplitude, number);
+    }
+    if (sb_sum_height_check(&all, given->depth, &why) == SB_OK) return SB_OK;
+    return sb_reader_fail(reader, map, "components", "%s", why.text);
+}
+
 static sb_status check_exact(sb_reader *reader, const sb_yaml *map, const sb_given_sea *given)
 {
     const double lowest = SB_SOLITARY_EXACT_LOWEST * given->depth, highest = SB_SOLITARY_EXACT_HIGHEST * given->depth;
@@ -185,6 +212,7 @@ static sb_status finish_theory(sb_reader *reader, const sb_yaml *map, sb_given_s
             "at most %g m",
             given->height, given->depth, SB_SOLITARY_HIGHEST, SB_SOLITARY_HIGHEST * given->depth);
     if (given->wave == SB_GIVEN_SOLITARY && given->theory == SB_GIVEN_EXACT) return check_exact(reader, map, given);
+    if (sum) return check_components(reader, map, given);
     return given->wave == SB_GIVEN_REGULAR ? check_regular(reader, map, given) : SB_OK;
 }
 

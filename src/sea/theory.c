@@ -101,7 +101,13 @@ static void describe(const theory *made, const sb_given_sea *given, sb_sea_notes
     else
         snprintf(notes->about, sizeof notes->about, "a sum of %zu linear waves on %g m, amplitudes together %.4g m",
                  made->count, given->depth, sb_wave_sum_crest(made->components, made->count));
-    if (made->kind == SB_GIVEN_REGULAR && wave->order == SB_WAVE_LINEAR && wave->height > 0.02 * wave->length)
+    if (made->kind != SB_GIVEN_REGULAR || wave->order != SB_WAVE_LINEAR) return;
+    if (wave->ursell >= SB_URSELL_LIMIT)
+        snprintf(notes->warning, sizeof notes->warning,
+                 "sea.order: linear waves of %g m and %.4g m length on %g m are long: H L^2/d^3 = %.3g is above %.3g, "
+                 "and they change on their way; expected order: auto, which gives cnoidal waves",
+                 wave->height, wave->length, wave->depth, wave->ursell, SB_URSELL_LIMIT);
+    else if (wave->height > 0.02 * wave->length)
         snprintf(notes->warning, sizeof notes->warning,
                  "sea.order: linear waves of %g m and %.4g m length are steep: free second harmonics arise, expected "
                  "order: auto",

@@ -172,17 +172,63 @@ static void refusals(void **state)
                 "cnoidal");
     sea_refused(SEA_FLAT, "source: theory, wave: solitary, height: 0.3, depth: 1, direction: 20", NULL, "0 or 180");
     sea_refused(SEA_FLAT, "source: theory, wave: components, depth: 1", NULL, "at least one");
+    sea_refused(
+        SEA_FLAT,
+        "source: theory, wave: components, depth: 1, components: [{amplitude: 0.1, period: 3}, {amplitude: 0.3, "
+        "period: 1}]",
+        NULL,
+        "sea.components: item 1 with an amplitude of 0.3 m and a period of 1 s on 1 m breaks, expected an "
+        "amplitude of at most 0.111 m");
+    sea_refused(
+        SEA_FLAT,
+        "source: theory, wave: components, depth: 1, components: [{amplitude: 0.2, period: 2}, {amplitude: 0.19, "
+        "period: 1.9}]",
+        NULL, "sea.components: the waves together have a significant height of 0.78 m and break");
+    sea_refused(SEA_FLAT, "source: theory, wave: components, depth: 1, components: [{amplitude: 1.01, period: 44700}]",
+                NULL, "uncovers the bed, expected an amplitude of at most 1 m");
     sea_refused(SEA_FLAT, "source: theory, wave: solitary, height: 1.3, depth: 2", NULL, "above the domain");
     sea_refused(SEA_FLAT, "source: theory, wave: solitary, height: 0.3, depth: 1, level: 3", NULL, "sea.level: 3 m");
     sea_refused(SEA_FLAT, "source: theory, wave: solitary, height: 0.3, depth: 1, period: 3", NULL, "does not apply");
 }
 
+/* A tide is a slow change of the level, which may be higher than any wave of constant form. */
+static void tides_may_be_high(void **state)
+{
+    (void)state;
+    sea_case c;
+    sea_make(
+        &c, SEA_FLAT,
+        "source: theory, wave: components, depth: 1, components: [{amplitude: 0.6, period: 44700}, {amplitude: 0.1, "
+        "period: 3}]",
+        NULL);
+    sea_free(&c);
+}
+
+static void long_linear_waves_give_a_warning(void **state)
+{
+    (void)state;
+    sea_case c;
+    sea_make(&c, SEA_FLAT, "source: theory, wave: regular, order: linear, height: 0.6, period: 20, depth: 1", NULL);
+    assert_non_null(sb_sea_warning(c.sea));
+    if (!strstr(sb_sea_warning(c.sea), "expected order: auto, which gives cnoidal waves"))
+        fail_msg("%s", sb_sea_warning(c.sea));
+    sea_free(&c);
+    sea_make(&c, SEA_FLAT, "source: theory, wave: regular, order: linear, height: 0.01, period: 4, depth: 1", NULL);
+    assert_null(sb_sea_warning(c.sea));
+    sea_free(&c);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(still_water_without_a_block),   cmocka_unit_test(a_solitary_wave_enters),
-        cmocka_unit_test(an_exact_solitary_wave_enters), cmocka_unit_test(regular_waves_grow_and_repeat),
-        cmocka_unit_test(directions_and_components),     cmocka_unit_test(refusals),
+        cmocka_unit_test(still_water_without_a_block),
+        cmocka_unit_test(a_solitary_wave_enters),
+        cmocka_unit_test(an_exact_solitary_wave_enters),
+        cmocka_unit_test(regular_waves_grow_and_repeat),
+        cmocka_unit_test(directions_and_components),
+        cmocka_unit_test(refusals),
+        cmocka_unit_test(tides_may_be_high),
+        cmocka_unit_test(long_linear_waves_give_a_warning),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

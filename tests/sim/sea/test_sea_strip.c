@@ -402,14 +402,14 @@ static void a_side_may_fall_dry_in_part(void **state)
     shore_free(&s);
 }
 
-/* A wave whose trough is deeper than the water. */
+/* A wave whose trough is deeper than the water: on the depth of its theory it would not break. */
 static void a_source_that_dries_the_strip_ends_the_run(void **state)
 {
     (void)state;
     const shore_form form = {2, 0.1, 1, {6, 0, 2.2}, "{x_min: sea}", NULL};
     shore s;
     shore_make(&s, &form,
-               "{source: theory, wave: components, depth: 1, ramp: 0.5, components: [{amplitude: 0.98, period: 3}]}");
+               "{source: theory, wave: components, depth: 5, ramp: 0.5, components: [{amplitude: 0.98, period: 4}]}");
     sb_sim *sim = shore_sim(&s);
     sb_error error = {0};
     sb_status status = SB_OK;
