@@ -289,6 +289,29 @@ static void signal_is_made_at_its_distance(void **state)
     sb_wave_train_destroy(train);
 }
 
+/* The surface of a list, far from the paddle, is the one that docs/waves.md states: a cos(wt - kx + phase). */
+static void phases_of_a_list_are_those_at_the_paddle(void **state)
+{
+    (void)state;
+    char list[] = SB_BINARY_DIR "/wave-train-phase.txt";
+    FILE *file = fopen(list, "w");
+    assert_non_null(file);
+    fputs("0.02 1.6 0\n0.01 1.1 90\n", file);
+    assert_int_equal(fclose(file), 0);
+    sb_wavemaker_parameters p = parameters_of("components");
+    p.file = list;
+    p.ramp = 0;
+    sb_wave_train *train = train_of(&p);
+    const double x = 10, one = 2 * M_PI / 1.6, other = 2 * M_PI / 1.1;
+    sb_wave_train_place(train, x);
+    for (double t = 5; t < 9; t += 0.37)
+        assert_near(sb_wave_train_surface(train, t),
+                    0.02 * cos(one * t - sb_wave_number(1.6, p.depth, GRAVITY) * x) -
+                        0.01 * sin(other * t - sb_wave_number(1.1, p.depth, GRAVITY) * x),
+                    1e-9);
+    sb_wave_train_destroy(train);
+}
+
 /* The waves of an irregular sea as a list and as a signal break where the sea does: Hs 0.6 m of 1.5 s on 1 m, whose
    limit is 0.454 m. One wave may be higher: its height is 2a. */
 static void sums_break_however_they_are_given(void **state)
@@ -403,6 +426,7 @@ int main(void)
         cmocka_unit_test(irregular_waves_have_their_height_and_peak),
         cmocka_unit_test(focused_waves_meet_at_their_place_and_time),
         cmocka_unit_test(signal_is_made_at_its_distance),
+        cmocka_unit_test(phases_of_a_list_are_those_at_the_paddle),
         cmocka_unit_test(sums_break_however_they_are_given),
         cmocka_unit_test(spectra_are_absorbed),
         cmocka_unit_test(surface_near_the_paddle_contains_all_waves),
