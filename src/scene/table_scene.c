@@ -1,6 +1,7 @@
 #include "scene/reader.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 const char *const sb_side_names[SB_SIDES] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
@@ -184,12 +185,13 @@ static const sb_key scene_keys[] = {
 /* The viscosity of a sponge would make implicit steps many times shorter, in the whole domain. */
 static sb_status check_sponges(sb_reader *reader, const sb_yaml *map, const sb_scene *scene)
 {
-    for (size_t s = 0; s < scene->sponge_count && scene->numerics.solver != SB_SOLVER_WCSPH; s++)
-        if (scene->sponges[s].kind == SB_SPONGE_VISCOUS)
-            return sb_reader_fail(
-                reader, map, "sponges",
-                "%s: kind viscous needs numerics.solver wcsph, expected kind: damping, or that solver",
-                scene->sponges[s].name);
+    const sb_yaml *list = sb_yaml_child(map, "sponges");
+    for (size_t s = 0; s < scene->sponge_count && scene->numerics.solver != SB_SOLVER_WCSPH; s++) {
+        if (scene->sponges[s].kind != SB_SPONGE_VISCOUS) continue;
+        snprintf(reader->path, sizeof reader->path, "sponges[%zu]", s);
+        return sb_reader_fail(reader, &list->items[s], "kind",
+                              "viscous needs numerics.solver wcsph, expected damping, or that solver");
+    }
     return SB_OK;
 }
 
