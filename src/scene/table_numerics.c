@@ -142,6 +142,7 @@ static sb_status check_forms(sb_reader *reader, const sb_yaml *map, const sb_num
         {explicit && n->density == SB_DENSITY_COMPLETED, "density",
          "completed with solver wcsph, whose density follows from the continuity equation: expected summed"},
         {explicit && n->stress_correction > 0, "stress_correction", "more than 0 with solver wcsph: expected 0"},
+        {explicit && n->hyperviscosity > 0, "hyperviscosity", "more than 0 with solver wcsph: expected 0"},
         {explicit && n->settle_steps > 0, "settle_steps",
          "more than 0 with solver wcsph, which starts from the lattice: expected 0"},
         {explicit && dynamic && drag, n->wall_friction > 0 ? "wall_friction" : "wall_shear",

@@ -120,6 +120,11 @@ static sb_status finish_eurotop(sb_reader *reader, const sb_yaml *map, sb_flow_p
     if (e->slope > 0 && !(e->period > 0))
         return sb_reader_fail(reader, map, "eurotop",
                               "period is missing, expected T_m-1,0 of the waves in s for a slope");
+    if (!(e->slope > 0) && e->period > 0)
+        return sb_reader_fail(reader, map, "eurotop",
+                              "period: %g s, but the rate at a vertical wall does not depend on it, expected a slope, "
+                              "or no period",
+                              e->period);
     return SB_OK;
 }
 

@@ -140,6 +140,26 @@ static sb_status check_direction(sb_reader *reader, const sb_yaml *map, const sb
     return SB_OK;
 }
 
+/* Keys that do not act together with the values of others. A key with its default is accepted: scenes that a run has
+   written have every default. */
+static sb_status check_unused(sb_reader *reader, const sb_yaml *map, const sb_wavemaker_parameters *law)
+{
+    const double usual = 0.5 * law->depth;
+    if (law->kind->needs & SB_WM_SPECTRUM && law->spectrum != SB_SPECTRUM_JONSWAP && fabs(law->gamma - 3.3) > 1e-9)
+        return sb_reader_fail(reader, map, "gamma",
+                              "%g with spectrum pierson-moskowitz, which has no peak enhancement, expected spectrum: "
+                              "jonswap, or no gamma",
+                              law->gamma);
+    if (!(law->kind->needs & SB_WM_TRAIN)) return SB_OK;
+    if (!law->absorb && fabs(law->reach - usual) > 1e-9 * usual)
+        return sb_reader_fail(reader, map, "reach",
+                              "%g m, but the paddle does not absorb, expected absorb: true, or no reach", law->reach);
+    if (law->after == SB_AFTER_RETURN)
+        return sb_reader_fail(reader, map, "after",
+                              "return, but the motion of a wave train ends where it began, expected stay");
+    return SB_OK;
+}
+
 /* Rows of the body before and after those of the law. */
 enum { PLACE_ROWS = 3, PLATE_ROWS = 1 };
 
@@ -152,7 +172,8 @@ static sb_status finish_law(sb_reader *reader, const sb_yaml *map, sb_wavemaker_
         if (!sb_yaml_child(map, "absorb")) use->law.absorb = strcmp(use->law.kind->name, "absorber") == 0;
         if (!sb_yaml_child(map, "reach")) use->law.reach = 0.5 * use->law.depth;
     }
-    sb_status status = use->body[0] ? sb_plates_check(reader, map, use) : SB_OK;
+    sb_status status = check_unused(reader, map, &use->law);
+    if (status == SB_OK && use->body[0]) status = sb_plates_check(reader, map, use);
     if (status != SB_OK) return status;
     sb_paddle paddle = {0};
     sb_error why = {0};
