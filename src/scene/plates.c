@@ -12,7 +12,7 @@ static const double ROW = 2;
 
 enum { PLATES_MAX = 100 };
 
-static const sb_body *body_of(const sb_scene *scene, const sb_wavemaker_use *use)
+const sb_body *sb_plates_body(const sb_scene *scene, const sb_wavemaker_use *use)
 {
     for (size_t i = 0; i < scene->body_count; i++)
         if (strcmp(scene->bodies[i].name, use->body) == 0) return &scene->bodies[i];
@@ -21,7 +21,7 @@ static const sb_body *body_of(const sb_scene *scene, const sb_wavemaker_use *use
 
 size_t sb_scene_plates(const sb_scene *scene, const sb_wavemaker_use *use, sb_plate_row *row)
 {
-    const sb_body *body = body_of(scene, use);
+    const sb_body *body = sb_plates_body(scene, use);
     const bool flap = use->law.motion == SB_PADDLE_FLAP;
     *row = (sb_plate_row){0};
     if (!(flap || use->plates.width > 0) || !body) return 0;
@@ -66,20 +66,20 @@ static sb_status check_flap(sb_reader *reader, const sb_yaml *map, const sb_wave
         return sb_reader_fail(
             reader, map, "motion",
             "a flap turns about the bed, `depth` below water.level, expected water.level, or a piston");
-    if (sb_scene_plates(scene, use, &row) > PLATES_MAX || !(row.from < row.to) ||
+    if (sb_scene_plates(scene, use, &row) > PLATES_MAX || !(row.from < row.to) || !(row.to > scene->sea.level) ||
         !(body->min.z + body->translate.z < row.from + 0.5 * scene->resolution))
         return sb_reader_fail(
             reader, map, "motion",
             "the box of the flap is from z = %g to %g m, expected one from its hinge at %g m or below, to "
-            "above the water",
-            body->min.z + body->translate.z, row.to, row.from);
+            "above the water at %g m",
+            body->min.z + body->translate.z, row.to, row.from, scene->sea.level);
     return SB_OK;
 }
 
 sb_status sb_plates_check(sb_reader *reader, const sb_yaml *map, const sb_wavemaker_use *use)
 {
     const sb_scene *scene = reader->scene;
-    const sb_body *body = body_of(scene, use);
+    const sb_body *body = sb_plates_body(scene, use);
     const double least = NARROWEST * scene->resolution;
     sb_plate_row row;
     if (use->law.motion == SB_PADDLE_FLAP) return check_flap(reader, map, use, body);

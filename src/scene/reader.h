@@ -34,6 +34,13 @@ sb_status sb_reader_no_body(sb_reader *reader, const sb_yaml *map, const char *k
 /* plates.c: refuses push-plates that cannot be made for a wave maker. */
 sb_status sb_plates_check(sb_reader *reader, const sb_yaml *map, const sb_wavemaker_use *use);
 
+/* plates.c: the body that a wave maker moves; NULL: it is part of a split mesh. */
+const sb_body *sb_plates_body(const sb_scene *scene, const sb_wavemaker_use *use);
+
+/* piston.c: refuses a paddle of a wave train whose face is oblique to its motion, or does not reach from the bed to
+   above the water. */
+sb_status sb_piston_check(sb_reader *reader, const sb_yaml *map, const sb_wavemaker_use *use);
+
 /* initial_wave.c: prepares the wave, and refuses one that cannot be or does not fit a periodic domain. */
 sb_status sb_initial_wave_finish(sb_reader *reader, const sb_yaml *map, sb_initial_wave *wave);
 

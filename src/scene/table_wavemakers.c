@@ -174,6 +174,7 @@ static sb_status finish_law(sb_reader *reader, const sb_yaml *map, sb_wavemaker_
     }
     sb_status status = check_unused(reader, map, &use->law);
     if (status == SB_OK && use->body[0]) status = sb_plates_check(reader, map, use);
+    if (status == SB_OK && use->body[0]) status = sb_piston_check(reader, map, use);
     if (status != SB_OK) return status;
     sb_paddle paddle = {0};
     sb_error why = {0};

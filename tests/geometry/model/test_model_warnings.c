@@ -77,6 +77,34 @@ static void depths_of_waves_are_compared_with_the_water(void **state)
     assert_true(warned("\"push\" moves", "units"));
 }
 
+static void paddles_with_their_water_behind_are_refused(void **state)
+{
+    (void)state;
+    add_box("paddle", sb_vec(-1, -1, -1), sb_vec(1, 7, 6));
+    scene.wavemaker_count = 1;
+    snprintf(wavemaker.name, sizeof wavemaker.name, "taker");
+    snprintf(wavemaker.body, sizeof wavemaker.body, "paddle");
+    wavemaker.law = (sb_wavemaker_parameters){.kind = sb_wavemaker_find("absorber"),
+                                              .depth = 3,
+                                              .period = 4,
+                                              .gravity = 9.81,
+                                              .ramp = 8,
+                                              .lasts = (double)INFINITY,
+                                              .absorb = true,
+                                              .reach = 1};
+    wavemaker.direction = sb_vec(1, 0, 0);
+    build();
+    assert_false(warned("\"taker\"", "no water"));
+    sb_model_free(&model);
+    wavemaker.direction = sb_vec(-1, 0, 0);
+    assert_int_equal(sb_model_build(&scene, &model, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "the scene: wavemakers[0].direction: the water of taker is on the other side"));
+    assert_non_null(strstr(error.text, "[1, 0, 0]"));
+    /* A law that only moves a body may pull. */
+    wavemaker.law = (sb_wavemaker_parameters){.kind = sb_wavemaker_find("stroke"), .stroke = 0.1, .speed = 0.1};
+    build();
+}
+
 static void strokes_into_other_bodies_are_reported(void **state)
 {
     (void)state;
@@ -346,6 +374,7 @@ int main(void)
         CASE(too_coarse_scenes_give_warnings),
         CASE(faces_without_area_are_reported),
         CASE(depths_of_waves_are_compared_with_the_water),
+        CASE(paddles_with_their_water_behind_are_refused),
         CASE(strokes_into_other_bodies_are_reported),
         CASE(boxes_without_water_of_their_own_are_reported),
         CASE(thin_bodies_share_a_line),
