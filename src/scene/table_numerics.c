@@ -106,7 +106,7 @@ static const sb_key keys[] = {
     NUMBER(sound_speed, "m/s", 0, HUGE_VAL, 0,
            "Speed of sound in the terms of artificial_viscosity and wall_friction; 0: 10 sqrt(g D). With `solver: "
            "wcsph` that of the water; 0: 10 times sqrt(g D) or the water's greatest speed at the start, whichever is "
-           "more."),
+           "more. Less gives a warning there, and less than a fifth is refused."),
     NUMBER(wall_spacing, "spacings", 0.4, 1.2, 0,
            "Distance between boundary particles. A large distance slows water that slides along a "
            "wall."),

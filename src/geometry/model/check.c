@@ -147,11 +147,15 @@ static sb_status check_facing(const checked *c, size_t maker, faces face, double
     sb_status status = water_between(c, way, face.front, face.front + near, &ahead, error);
     if (status == SB_OK && !ahead) status = water_between(c, way, face.back - near, face.back, &behind, error);
     if (status != SB_OK || !behind) return status;
+    char towards[80];
+    if (c->scene->dimensions == 2)
+        snprintf(towards, sizeof towards, "[%g, %g]", 0 - way.x, 0 - way.z);
+    else
+        snprintf(towards, sizeof towards, "[%g, %g, %g]", 0 - way.x, 0 - way.y, 0 - way.z);
     return sb_fail(error, SB_BAD_INPUT,
                    "%.300s: wavemakers[%zu].direction: the water of %s is on the other side of its body, expected the "
-                   "direction into the water, [%g, %g, %g] (2D: [%g, %g])",
-                   c->scene->path ? c->scene->path : "the scene", maker, use->name, 0 - way.x, 0 - way.y, 0 - way.z,
-                   0 - way.x, 0 - way.z);
+                   "direction into the water, such as %s",
+                   c->scene->path ? c->scene->path : "the scene", maker, use->name, towards);
 }
 
 /* Compares the still-water depth that waves and wave makers assume with the depth of the water there. */
@@ -260,5 +264,6 @@ sb_status sb_model_check(const sb_scene *scene, const sb_model_team *team, const
     status = sb_model_warn_gaps(scene, team, space, status, model, error);
     if (status == SB_OK) status = sb_model_warn_strokes(scene, space, model, error);
     if (status == SB_OK) status = check_steps(scene, model, error);
+    if (status == SB_OK) status = sb_model_check_sound(scene, model, error);
     return status == SB_OK ? check_water(scene, space, model, error) : status;
 }

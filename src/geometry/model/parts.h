@@ -48,6 +48,9 @@ sb_status sb_model_facets(const sb_scene *scene, const sb_model_space *space, sb
 sb_status sb_model_check(const sb_scene *scene, const sb_model_team *team, const sb_model_space *space,
                          sb_status before, sb_model *model, sb_error *error);
 
+/* sound.c: warns of a speed of sound of weakly compressible water that is too low, or refuses it. */
+sb_status sb_model_check_sound(const sb_scene *scene, sb_model *model, sb_error *error);
+
 /* plates.c: the part of a paddle that is one of its push-plates; the first and the last have what is outside of the
    domain. */
 sb_body sb_model_plate(const sb_body *from, const sb_plate_row *row, size_t plate);

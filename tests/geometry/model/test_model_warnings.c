@@ -105,6 +105,27 @@ static void paddles_with_their_water_behind_are_refused(void **state)
     build();
 }
 
+/* Long waves in the 3 m of water have 5.42 m/s. */
+static void slow_sound_is_reported(void **state)
+{
+    (void)state;
+    scene.numerics.solver = SB_SOLVER_WCSPH;
+    for (int fast = 0; fast < 2; fast++) {
+        scene.numerics.sound_speed = fast ? 55 : 20;
+        build();
+        assert_int_equal(warned("numerics.sound_speed: with 20 m/s", "compressed by about 7.4 %"), !fast);
+    }
+    sb_model_free(&model);
+    scene.numerics.sound_speed = 10;
+    assert_int_equal(sb_model_build(&scene, &model, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "numerics.sound_speed: 10 m/s is less than twice the speed of waves"));
+    assert_non_null(strstr(error.text, "expected 54.2 m/s"));
+    /* Other solvers have it in the artificial viscosity only. */
+    scene.numerics.solver = SB_SOLVER_CG;
+    build();
+    assert_false(warned("sound_speed", ""));
+}
+
 static void strokes_into_other_bodies_are_reported(void **state)
 {
     (void)state;
@@ -375,6 +396,7 @@ int main(void)
         CASE(faces_without_area_are_reported),
         CASE(depths_of_waves_are_compared_with_the_water),
         CASE(paddles_with_their_water_behind_are_refused),
+        CASE(slow_sound_is_reported),
         CASE(strokes_into_other_bodies_are_reported),
         CASE(boxes_without_water_of_their_own_are_reported),
         CASE(thin_bodies_share_a_line),
