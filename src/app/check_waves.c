@@ -52,7 +52,7 @@ static void print_parts(const sb_scene *scene, const sb_wavemaker_use *maker, do
 static const char *per_cent(double share, char text[32])
 {
     if (100 * share < 0.01) return "below 0.01 %";
-    snprintf(text, 32, "%.2g %%", 100 * share);
+    snprintf(text, 32, "%.*g %%", share < 0.995 ? 2 : 3, 100 * share);
     return text;
 }
 

@@ -24,6 +24,16 @@ static double complex number_near(double complex near, double complex target, do
     return k;
 }
 
+/* (k sin kx + f cos kx)/(k cos kx - f sin kx)/k of a slice of width x, with f the flux behind it. Both sums are divided
+   by the growing exponential, which overflows where a strong sponge lets no wave through. The result is the same for
+   -k. */
+static double complex through(double complex k, double width, double complex f)
+{
+    if (cimag(k) < 0) k = -k;
+    const double complex fading = cexp(CMPLX(0, 2 * width) * k), one = 1 + fading, other = CMPLX(0, 1) * (1 - fading);
+    return (k * other + f * one) / (k * one - f * other) / k;
+}
+
 /* The flux is as eta_x tanh(kd)/(k (1 + i strength/omega)), which is as eta_x/k^2. From the wall, where it is 0, to the
    front. Time is as exp(-i omega t). */
 double sb_sponge_reflection(sb_sponge_profile profile, double strength, double omega, double depth, double gravity,
@@ -37,10 +47,7 @@ double sb_sponge_reflection(sb_sponge_profile profile, double strength, double o
         k = number_near(k, omega * omega / gravity * CMPLX(1, strength * share / omega), depth);
         wave[s] = k;
     }
-    for (int s = SLICES - 1; s >= 0; s--) {
-        const double complex slope = flux * wave[s] * wave[s], c = ccos(wave[s] * width), i = csin(wave[s] * width);
-        flux = (wave[s] * i + slope * c) / (c - slope / wave[s] * i) / (wave[s] * wave[s]);
-    }
+    for (int s = SLICES - 1; s >= 0; s--) flux = through(wave[s], width, flux * wave[s] * wave[s]);
     const double complex ahead = CMPLX(0, 1 / front);
     return cabs((ahead - flux) / (ahead + flux));
 }

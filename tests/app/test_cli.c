@@ -173,6 +173,10 @@ static void check_prints_reflections(void **state)
     assert_contains(o.out, "predicted reflection 1.6 %");
     assert_contains(o.out, " s on 1 thread, including settling");
     outcome_free(&o);
+    o = RUN(0, "check", SB_SOURCE_DIR "/assets/scenes/bar.yaml", "--set", "resolution=0.05", "--threads", "1", "--set",
+            "sponges.0.strength=1e9");
+    assert_contains(o.out, "predicted reflection 100 %");
+    outcome_free(&o);
 }
 
 static void check_in_json(void **state)

@@ -40,6 +40,16 @@ static void no_strength_is_a_wall(void **state)
         assert_near(sb_sponge_reflection(SB_SPONGE_LINEAR, 0, 2 * M_PI / period, 0.5, GRAVITY, 3), 1, 1e-9);
 }
 
+/* Water that stands still is a wall. A cubic of 1000 slices begins softly, which takes up to 2 %. */
+static void endless_strength_is_a_wall(void **state)
+{
+    (void)state;
+    for (int p = SB_SPONGE_LINEAR; p <= SB_SPONGE_CUBIC; p++)
+        for (double period = 0.7; period < 8; period *= 1.8)
+            for (double strength = 1e9; strength < 2e12; strength *= 10)
+                assert_near(sb_sponge_reflection(p, strength, 2 * M_PI / period, 1, GRAVITY, 5), 1, 0.02);
+}
+
 /* Deep water: constant strength over half a wavelength lets exp(-2 Im(k) l) return, k = omega^2/g (1 + i s/omega),
    apart from what the front reflects. A cubic of little strength has no front and the mean of a quarter. */
 static void deep_waves_decay_by_their_wave_number(void **state)
@@ -141,6 +151,7 @@ int main(void)
         cmocka_unit_test(profiles_run_from_nothing_to_all),
         cmocka_unit_test(long_waves_reflect_as_known),
         cmocka_unit_test(no_strength_is_a_wall),
+        cmocka_unit_test(endless_strength_is_a_wall),
         cmocka_unit_test(deep_waves_decay_by_their_wave_number),
         cmocka_unit_test(prediction_is_that_of_waves_in_time),
         cmocka_unit_test(best_strength_has_no_better_neighbour),
