@@ -1,6 +1,8 @@
 #include "app/warnings.h"
 
+#include "app/check_measures.h"
 #include "app/check_tension.h"
+#include "app/check_zones.h"
 #include "app/wave_warnings.h"
 #include "base/memory.h"
 #include "physics/dispersion.h"
@@ -136,6 +138,8 @@ sb_status sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void
     sb_status status = sb_wave_warnings(scene, visit, context, error);
     if (status == SB_OK) status = warn_of_reflections(scene, visit, context, error);
     sb_tension_warnings(scene, visit, context);
+    sb_measure_warnings(scene, visit, context);
+    sb_zone_warnings(scene, visit, context);
     if (scene->measure.interval > scene->duration) {
         snprintf(text, sizeof text,
                  "measure.interval: %g s is longer than the run of %g s: forces.csv gets no row, and the other tables "

@@ -9,10 +9,20 @@
 #define TANK                                                                                                           \
     "title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\nmeasure: {interval: 0.01}\noutput: {plots: false}\n"
 
-#define FLUME(law)                                                                                                     \
+#define WAVES_BY(law)                                                                                                  \
     TANK "domain: {min: [-1, 0], max: [4, 0.8]}\nwater: {level: 0.5, seed: [1, 0.2]}\n"                                \
          "bodies: [{name: paddle, shape: box, min: [-0.5, 0], max: [0, 0.7]}]\n"                                       \
          "wavemakers: [{name: w, body: paddle, " law "}]\n"
+
+/* A flume with a metre of water: a paddle of these keys, sponges and measurements. */
+#define FLUME(paddle, sponges, measure)                                                                                \
+    "title: t\ndimensions: 2\nresolution: 0.1\nduration: 0.02\noutput: {plots: false}\n"                               \
+    "domain: {min: [-1, 0], max: [10, 2]}\nwater: {level: 1, seed: [2, 0.5]}\n"                                        \
+    "bodies: [{name: paddle, shape: box, min: [-0.5, 0], max: [0, 1.8]}]\n"                                            \
+    "wavemakers: [{name: w, body: paddle, depth: 1, " paddle "}]\nsponges: [" sponges "]\nmeasure: {interval: 0.01, "  \
+    "gauges: [{name: a, x: 1}, {name: b, x: 1.7}, {name: c, x: 3}]" measure "}\n"
+#define WAVES "kind: regular, height: 0.1, period: 2.3"
+#define BEACH "{name: beach, side: x_max, period: 2.3, "
 
 /* Number of lines that contain both texts. */
 static int lines_with(const char *text, const char *first, const char *second)
@@ -76,20 +86,43 @@ static void check_and_run_give_the_same_warnings(void **state)
          "output: {plots: false, particle_pieces: true}\n",
          "output.particle_pieces: true, but the run writes no particle files",
          "expected output.particle_interval above"},
-        {FLUME("kind: components, depth: 0.5, file: list.txt"),
+        {WAVES_BY("kind: components, depth: 0.5, file: list.txt"),
          "wave maker \"w\": a wave height of 0.04 m is 0.8 times the particle spacing", "expected 5 times or more"},
-        {FLUME("kind: signal, depth: 0.5, file: signal.txt, distance: 1"), "wave maker \"w\": a wave height of 0.028",
-         "expected 5 times or more"},
-        {FLUME("kind: signal, depth: 0.5, file: signal.txt, distance: 3000"),
+        {WAVES_BY("kind: signal, depth: 0.5, file: signal.txt, distance: 1"),
+         "wave maker \"w\": a wave height of 0.028", "expected 5 times or more"},
+        {WAVES_BY("kind: signal, depth: 0.5, file: signal.txt, distance: 3000"),
          "wave maker \"w\": its distance of 3000 m is outside of the domain, which is 5 m long",
          "expected a shorter distance or a longer domain"},
-        {FLUME("kind: focused, height: 0.1, depth: 0.5, period: 1.5, distance: 800, focus: 9000"),
+        {WAVES_BY("kind: focused, height: 0.1, depth: 0.5, period: 1.5, distance: 800, focus: 9000"),
          "wave maker \"w\": its distance of 800 m is outside of the domain", "expected a shorter distance"},
-        {FLUME("kind: focused, height: 0.1, depth: 0.5, period: 1.5, distance: 4, focus: 0.1"),
+        {WAVES_BY("kind: focused, height: 0.1, depth: 0.5, period: 1.5, distance: 4, focus: 0.1"),
          "wave maker \"w\": its focus at 0.1 s is too early", "expected a focus of at least "},
         {"title: t\ndimensions: 2\nduration: 0.02\noutput: {plots: false}\ndomain: {min: [0, -1], max: [40, 1]}\n"
          "offshore: {cell: 0.2, level: 0, wave: {kind: solitary, height: 0.1, depth: 1, position: -4}}\n",
          "offshore.wave.position: the crest at x = -4 m begins outside of the grid", "expected a place from 0 to 40 m"},
+        {FLUME(WAVES, BEACH "length: 5, depth: 5}", ""), "sponge \"beach\": its depth is 5 m", "there is 1 m deep"},
+        {FLUME(WAVES, BEACH "length: 10.9, depth: 1}", ""),
+         "sponge \"beach\": it covers the face of wave maker \"w\" at x = 0 m", "expected a length below 10 m"},
+        {FLUME(WAVES, BEACH "end: 3, length: 5, depth: 1}", ""), "sponge \"beach\": it begins at x = -2 m, outside",
+         "expected a length of at most 4 m"},
+        {FLUME(WAVES, BEACH "length: 5, depth: 1}, {name: more, side: x_max, length: 4, period: 2.3, depth: 1}", ""),
+         "sponges \"beach\" and \"more\" overlap from x = 6 to 10 m", "their strengths add there"},
+        {FLUME(WAVES, "", ", waves: {start: 3}"), "measure.waves.start: 3 s is not before the end of the run at 0.02 s",
+         "expected an earlier start"},
+        {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\noutput: {plots: false}\n"
+         "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
+         "measure: {interval: 0.01, waves: {}}\n",
+         "measure.waves: there are no gauges", "expected measure.gauges"},
+        {FLUME(WAVES, "", ", waves: {period: 0.01}"), "measure.waves.period: the last of the five harmonics of 0.01 s",
+         "expected a period of 0.1 s or more"},
+        {FLUME(WAVES, "", ", planes: [{name: p, from: [5], z_min: 1.2, eurotop: {height: 0.1, start: 7}}]"),
+         "measure.planes[0].eurotop.start: 7 s is not before the end of the run", "expected an earlier start"},
+        {FLUME(WAVES, "", ", reflections: [{name: r, gauges: [a, b, c], period: 2.3, depth: 7}]"),
+         "measure.reflections \"r\": its depth is 7 m", "there is 1 m deep"},
+        {FLUME("kind: regular, theory: linear, height: 0.2, period: 20", "", ""),
+         "wave maker \"w\": its travel of 1.99 m is 0.995 m to each side", "the domain has 0.5 m behind it"},
+        {FLUME("kind: irregular, height: 0.2, period: 1e6", "", ""), "wave maker \"w\": its travel of 1.51e+05 m",
+         "expected lower or shorter waves"},
     };
     write_text("list.txt", "0.01 1.5 0\n0.01 1.2 0\n");
     write_text("signal.txt", "0 0\n.1 .01\n.2 0\n.3 -.01\n.4 0\n.5 .01\n.6 0\n.7 -.01\n.8 0\n.9 .01\n1 0\n1.1 -.01\n");
@@ -106,6 +139,20 @@ static void check_and_run_give_the_same_warnings(void **state)
         assert_contains(log, cases[k].second);
         sb_free(log);
     }
+}
+
+/* A sponge that is right, and one behind the paddle, which is none of its waves' business. */
+static void right_sponges_give_no_warnings(void **state)
+{
+    (void)state;
+    write_text("flume.yaml",
+               FLUME(WAVES, BEACH "length: 6, depth: 1}, {name: back, side: x_min, length: 0.4, period: 2.3, depth: 1}",
+                     ", waves: {period: 2.3}, reflections: [{name: r, gauges: [a, b, c], period: 2.3, depth: 1.04}]"));
+    outcome o = RUN(0, "check", "flume.yaml", "--set", "duration=20");
+    assert_null(strstr(o.out, "warning: sponge"));
+    assert_null(strstr(o.out, "warning: measure"));
+    assert_null(strstr(o.out, "its travel"));
+    outcome_free(&o);
 }
 
 /* Water a third of a particle spacing deep over a shelf is known before the run. Two particles on the floor are a
@@ -141,6 +188,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(check_and_run_give_the_same_warnings),
+        cmocka_unit_test(right_sponges_give_no_warnings),
         cmocka_unit_test(gauges_that_stay_empty_are_reported_once),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

@@ -110,54 +110,6 @@ static sb_status check_depth(const checked *c, const char *what, const char *nam
                          what, name, depth, there);
 }
 
-/* Where the flat faces of a wave maker's body are along its direction, m; infinite without such a face. */
-typedef struct faces {
-    double front, back;
-} faces;
-
-static faces find_faces(const sb_model *model, size_t maker, sb_vec3 along)
-{
-    faces found = {-(double)INFINITY, (double)INFINITY};
-    for (size_t b = 0; b < model->body_count; b++) {
-        const sb_model_body *body = &model->bodies[b];
-        for (size_t i = body->begin; i < body->begin + body->count && body->wavemaker == (int)maker; i++) {
-            const double facing = sb_dot(model->wall_normal[i], along), at = sb_dot(model->wall_position[i], along);
-            if (facing > 0.9) found.front = fmax(found.front, at);
-            if (facing < -0.9) found.back = fmin(found.back, at);
-        }
-    }
-    return found;
-}
-
-static sb_status water_between(const checked *c, sb_vec3 along, double from, double to, bool *there, sb_error *error)
-{
-    stretch s = {along, from, to, (double)INFINITY};
-    const sb_status status = sb_model_visit_water(c->space, c->model, find_lowest, &s, error);
-    *there = isfinite(s.lowest);
-    return status;
-}
-
-/* Refuses a paddle of a wave train whose water is behind it. */
-static sb_status check_facing(const checked *c, size_t maker, faces face, double near, sb_error *error)
-{
-    const sb_wavemaker_use *use = &c->scene->wavemakers[maker];
-    const sb_vec3 way = use->direction;
-    bool ahead = false, behind = false;
-    if (!(use->law.kind->needs & SB_WM_TRAIN)) return SB_OK;
-    sb_status status = water_between(c, way, face.front, face.front + near, &ahead, error);
-    if (status == SB_OK && !ahead) status = water_between(c, way, face.back - near, face.back, &behind, error);
-    if (status != SB_OK || !behind) return status;
-    char towards[80];
-    if (c->scene->dimensions == 2)
-        snprintf(towards, sizeof towards, "[%g, %g]", 0 - way.x, 0 - way.z);
-    else
-        snprintf(towards, sizeof towards, "[%g, %g, %g]", 0 - way.x, 0 - way.y, 0 - way.z);
-    return sb_fail(error, SB_BAD_INPUT,
-                   "%.300s: wavemakers[%zu].direction: the water of %s is on the other side of its body, expected the "
-                   "direction into the water, such as %s",
-                   c->scene->path ? c->scene->path : "the scene", maker, use->name, towards);
-}
-
 /* Compares the still-water depth that waves and wave makers assume with the depth of the water there. */
 static sb_status check_depths(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
@@ -178,14 +130,15 @@ static sb_status check_depths(const sb_scene *scene, const sb_model_space *space
                                scene->sea.level + sb_initial_crest(wave), scene->domain.max.z);
     for (size_t w = 0; w < scene->wavemaker_count && status == SB_OK && scene->sea.present; w++) {
         const sb_wavemaker_use *maker = &scene->wavemakers[w];
-        const faces face = find_faces(model, w, maker->direction);
+        double front = -(double)INFINITY;
         char name[SB_NAME_MAX + 4];
-        if (!(maker->law.depth > 0) || !isfinite(face.front)) continue;
-        status = check_facing(&c, w, face, near, error);
+        for (size_t b = 0; b < model->body_count; b++)
+            for (size_t i = model->bodies[b].begin; i < model->bodies[b].begin + model->bodies[b].count; i++)
+                if (model->bodies[b].wavemaker == (int)w && sb_dot(model->wall_normal[i], maker->direction) > 0.9)
+                    front = fmax(front, sb_dot(model->wall_position[i], maker->direction));
+        if (!(maker->law.depth > 0) || !isfinite(front)) continue;
         snprintf(name, sizeof name, " \"%s\"", maker->name);
-        if (status == SB_OK)
-            status = check_depth(&c, "wave maker", name, maker->law.depth, maker->direction, face.front,
-                                 face.front + near, error);
+        status = check_depth(&c, "wave maker", name, maker->law.depth, maker->direction, front, front + near, error);
     }
     return status;
 }
@@ -253,6 +206,7 @@ static sb_status check_alone(const sb_scene *scene, const sb_model_space *space,
     if (status == SB_OK) status = sb_model_warn_ground(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_open(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_gauges(scene, space, model, error);
+    if (status == SB_OK) status = sb_model_warn_depths(scene, space, model, error);
     return status;
 }
 
@@ -265,5 +219,6 @@ sb_status sb_model_check(const sb_scene *scene, const sb_model_team *team, const
     if (status == SB_OK) status = sb_model_warn_strokes(scene, space, model, error);
     if (status == SB_OK) status = check_steps(scene, model, error);
     if (status == SB_OK) status = sb_model_check_sound(scene, model, error);
+    if (status == SB_OK) status = sb_model_check_paddles(scene, space, model, error);
     return status == SB_OK ? check_water(scene, space, model, error) : status;
 }

@@ -35,6 +35,13 @@ static double depth_below(const sb_model *model, const sb_model_space *space, sb
     return depth;
 }
 
+double sb_model_still_depth(const sb_scene *scene, const sb_model *model, const sb_model_space *space, double x,
+                            double y)
+{
+    const double flat = scene->dimensions == 2 ? 0 : y, level = level_over(scene, x, flat);
+    return level > model->min.z ? depth_below(model, space, sb_vec(x, flat, level)) : 0;
+}
+
 /* A place, and the particles in the columns around it. */
 typedef struct surroundings {
     const sb_model *model;

@@ -48,6 +48,16 @@ sb_status sb_model_facets(const sb_scene *scene, const sb_model_space *space, sb
 sb_status sb_model_check(const sb_scene *scene, const sb_model_team *team, const sb_model_space *space,
                          sb_status before, sb_model *model, sb_error *error);
 
+/* gauges.c: depth of the still water at a place, m; 0: it is dry, or in a body. */
+double sb_model_still_depth(const sb_scene *scene, const sb_model *model, const sb_model_space *space, double x,
+                            double y);
+
+/* depths.c: warns of sponges and sets of gauges whose depth is not that of the still water there. */
+sb_status sb_model_warn_depths(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+
+/* paddles.c: refuses paddles of wave trains that have their water behind them, and warns of those without room. */
+sb_status sb_model_check_paddles(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+
 /* sound.c: warns of a speed of sound of weakly compressible water that is too low, or refuses it. */
 sb_status sb_model_check_sound(const sb_scene *scene, sb_model *model, sb_error *error);
 

@@ -1,0 +1,55 @@
+/* Warns of measurements that the run cannot fill: those that begin after its end, without gauges, or with too few rows
+   per period. */
+#include "app/check_measures.h"
+
+#include <stdio.h>
+
+/* Harmonics of measure.waves, and rows that the shortest of their periods needs. */
+enum { HARMONICS = 5, ROWS = 2 };
+
+static void warn_of_waves(const sb_scene *scene, sb_warning_visit *visit, void *context)
+{
+    char text[400];
+    const sb_wave_settings *waves = &scene->measure.waves;
+    const double least = HARMONICS * ROWS * scene->measure.interval;
+    if (!waves->present) return;
+    if (scene->measure.gauge_count == 0)
+        visit(context, "measure.waves: there are no gauges, so that waves.csv has no row; expected measure.gauges, or "
+                       "no waves");
+    if (waves->start >= scene->duration) {
+        snprintf(
+            text, sizeof text,
+            "measure.waves.start: %g s is not before the end of the run at %g s: waves.csv has no values; expected "
+            "an earlier start or a longer duration",
+            waves->start, scene->duration);
+        visit(context, text);
+    }
+    if (waves->period > 0 && waves->period < least * (1 - 1e-9)) {
+        snprintf(text, sizeof text,
+                 "measure.waves.period: the last of the five harmonics of %g s has less than two rows of "
+                 "measure.interval %g s: it is not measured; expected a period of %.3g s or more, or an interval of "
+                 "%.3g s or less",
+                 waves->period, scene->measure.interval, least, waves->period / (HARMONICS * ROWS));
+        visit(context, text);
+    }
+}
+
+static void warn_of_rates(const sb_scene *scene, sb_warning_visit *visit, void *context)
+{
+    char text[400];
+    for (size_t p = 0; p < scene->measure.plane_count; p++) {
+        const sb_flow_plane *plane = &scene->measure.planes[p];
+        if (!(plane->eurotop.height > 0) || plane->eurotop.start < scene->duration) continue;
+        snprintf(text, sizeof text,
+                 "measure.planes[%zu].eurotop.start: %g s is not before the end of the run at %g s: the rate of \"%s\" "
+                 "is not compared; expected an earlier start or a longer duration",
+                 p, plane->eurotop.start, scene->duration, plane->name);
+        visit(context, text);
+    }
+}
+
+void sb_measure_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
+{
+    warn_of_waves(scene, visit, context);
+    warn_of_rates(scene, visit, context);
+}

@@ -1,0 +1,56 @@
+/* Warns of sponges that begin outside of the domain, and of those that overlap. */
+#include "app/check_zones.h"
+
+#include <math.h>
+#include <stdio.h>
+
+typedef struct zone {
+    double from, to; /* m, along its axis, within the domain */
+} zone;
+
+/* Where a sponge slows water down: from its beginning to the side. */
+static zone zone_of(const sb_scene *scene, const sb_sponge *sponge)
+{
+    const int axis = sponge->side / 2;
+    const double low = sb_component(scene->domain.min, axis), high = sb_component(scene->domain.max, axis);
+    return sponge->side % 2 ? (zone){fmax(sponge->end - sponge->length, low), high}
+                            : (zone){low, fmin(sponge->end + sponge->length, high)};
+}
+
+static void warn_of_beginning(const sb_scene *scene, const sb_sponge *sponge, sb_warning_visit *visit, void *context)
+{
+    char text[400];
+    const int axis = sponge->side / 2;
+    const bool upper = sponge->side % 2;
+    const double side = sb_component(upper ? scene->domain.min : scene->domain.max, axis);
+    const double most = fabs(sponge->end - side);
+    if (sponge->length <= most * (1 + 1e-9)) return;
+    snprintf(text, sizeof text,
+             "sponge \"%s\": it begins at %c = %.4g m, outside of the domain, so that its strength does not grow from "
+             "0 there, and the predicted reflection is not that of what is left; expected a length of at most %.4g m",
+             sponge->name, "xy"[axis], sponge -> end + (upper ? -1 : 1) * sponge -> length, most);
+    visit(context, text);
+}
+
+static void warn_of_overlap(const sb_scene *scene, const sb_sponge *a, const sb_sponge *b, sb_warning_visit *visit,
+                            void *context)
+{
+    char text[400];
+    if (a->side / 2 != b->side / 2) return;
+    const zone one = zone_of(scene, a), other = zone_of(scene, b);
+    const double from = fmax(one.from, other.from), to = fmin(one.to, other.to);
+    if (!(to - from > 1e-9 * (one.to - one.from))) return;
+    snprintf(text, sizeof text,
+             "sponges \"%s\" and \"%s\" overlap from %c = %.4g to %.4g m: their strengths add there, and the predicted "
+             "reflections are those of each alone; expected one sponge, or zones apart",
+             a->name, b->name, "xy"[a->side / 2], from, to);
+    visit(context, text);
+}
+
+void sb_zone_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
+{
+    for (size_t s = 0; s < scene->sponge_count; s++) {
+        warn_of_beginning(scene, &scene->sponges[s], visit, context);
+        for (size_t t = 0; t < s; t++) warn_of_overlap(scene, &scene->sponges[t], &scene->sponges[s], visit, context);
+    }
+}

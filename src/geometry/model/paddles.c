@@ -1,0 +1,125 @@
+/* Paddles of wave trains: their water must be ahead, and the domain and its sponges must leave them room. */
+#include "geometry/model/parts.h"
+#include "physics/wavemaker.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* In spacings: distance from a face within which its water is looked for. */
+static const double NEAR = 3;
+
+/* Where a paddle begins and ends along its direction, m. */
+typedef struct extent {
+    double back, front;
+} extent;
+
+static extent extent_of(const sb_model *model, size_t maker, sb_vec3 along)
+{
+    extent found = {(double)INFINITY, -(double)INFINITY};
+    for (size_t b = 0; b < model->body_count; b++) {
+        const sb_mesh *mesh = &model->bodies[b].mesh;
+        for (size_t i = 0; i < mesh->vertex_count && model->bodies[b].wavemaker == (int)maker; i++) {
+            const double at = sb_dot(mesh->vertices[i], along);
+            found = (extent){fmin(found.back, at), fmax(found.front, at)};
+        }
+    }
+    return found;
+}
+
+/* ---- water ahead ---- */
+
+typedef struct sides {
+    sb_vec3 along;
+    extent paddle;
+    double near;
+    bool ahead, behind;
+} sides;
+
+static void find_sides(void *context, const sb_water_piece *piece)
+{
+    sides *s = context;
+    for (size_t i = 0; i < piece->count; i++) {
+        const double at = sb_dot(piece->position[i], s->along);
+        s->ahead = s->ahead || (at >= s->paddle.front && at <= s->paddle.front + s->near);
+        s->behind = s->behind || (at <= s->paddle.back && at >= s->paddle.back - s->near);
+    }
+}
+
+static sb_status check_facing(const sb_scene *scene, const sb_model_space *space, const sb_model *model, size_t maker,
+                              extent paddle, sb_error *error)
+{
+    const sb_vec3 way = scene->wavemakers[maker].direction;
+    sides s = {.along = way, .paddle = paddle, .near = NEAR * model->spacing};
+    const sb_status status = sb_model_visit_water(space, model, find_sides, &s, error);
+    char towards[80];
+    if (status != SB_OK || s.ahead || !s.behind) return status;
+    if (scene->dimensions == 2)
+        snprintf(towards, sizeof towards, "[%g, %g]", 0 - way.x, 0 - way.z);
+    else
+        snprintf(towards, sizeof towards, "[%g, %g, %g]", 0 - way.x, 0 - way.y, 0 - way.z);
+    return sb_fail(error, SB_BAD_INPUT,
+                   "%.300s: wavemakers[%zu].direction: the water of %s is on the other side of its body, expected the "
+                   "direction into the water, such as %s",
+                   scene->path ? scene->path : "the scene", maker, scene->wavemakers[maker].name, towards);
+}
+
+/* ---- room ---- */
+
+/* Distance along a horizontal direction from a place to the end of the domain, m; the place is along that direction. */
+static double room_along(const sb_domain *domain, sb_vec3 direction, double place)
+{
+    const sb_vec3 far =
+        sb_vec(direction.x > 0 ? domain->max.x : domain->min.x, direction.y > 0 ? domain->max.y : domain->min.y, 0);
+    return sb_dot(far, direction) - place;
+}
+
+/* A body that ends at the domain's side or beyond it may move its face up to there. */
+static sb_status check_travel(const sb_scene *scene, const sb_wavemaker_use *use, extent paddle, sb_model *model,
+                              sb_error *error)
+{
+    const sb_vec3 back = sb_scale(use->direction, -1);
+    sb_paddle law;
+    if (sb_paddle_create(&use->law, &law, NULL) != SB_OK) return SB_OK;
+    const double travel = law.kind->facts(law.state)->travel;
+    sb_paddle_destroy(&law);
+    const double ahead = room_along(&scene->domain, use->direction, paddle.front);
+    double behind = room_along(&scene->domain, back, -paddle.back);
+    if (!(behind > 0)) behind = room_along(&scene->domain, back, -paddle.front);
+    if (0.5 * travel <= fmin(ahead, behind)) return SB_OK;
+    return sb_model_warn(model, error,
+                         "wave maker \"%s\": its travel of %.3g m is %.3g m to each side, and the domain has %.3g m "
+                         "behind it and %.3g m ahead: expected lower or shorter waves, or a longer domain",
+                         use->name, travel, 0.5 * travel, behind, ahead);
+}
+
+/* ---- sponges ---- */
+
+static sb_status check_sponges(const sb_scene *scene, const sb_wavemaker_use *use, extent paddle, sb_model *model,
+                               sb_error *error)
+{
+    for (size_t s = 0; s < scene->sponge_count; s++) {
+        const sb_sponge *sponge = &scene->sponges[s];
+        const double along = sb_component(use->direction, sponge->side / 2), sign = sponge->side % 2 ? 1 : -1;
+        const double face = paddle.front * along, room = (sponge->end - face) * sign;
+        if (fabs(along) < 0.99 || room >= sponge->length * (1 - 1e-9)) continue;
+        return sb_model_warn(model, error,
+                             "sponge \"%s\": it covers the face of wave maker \"%s\" at %c = %.4g m, and takes its "
+                             "waves where they are made; expected a length below %.4g m",
+                             sponge->name, use->name, "xy"[sponge->side / 2], face, fmax(room, 0));
+    }
+    return SB_OK;
+}
+
+sb_status sb_model_check_paddles(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
+{
+    sb_status status = SB_OK;
+    for (size_t w = 0; w < scene->wavemaker_count && status == SB_OK; w++) {
+        const sb_wavemaker_use *use = &scene->wavemakers[w];
+        const extent paddle = extent_of(model, w, use->direction);
+        if (!(use->law.kind->needs & SB_WM_TRAIN) || !isfinite(paddle.front)) continue;
+        status = check_facing(scene, space, model, w, paddle, error);
+        if (status == SB_OK) status = check_travel(scene, use, paddle, model, error);
+        if (status == SB_OK) status = check_sponges(scene, use, paddle, model, error);
+    }
+    return status;
+}
