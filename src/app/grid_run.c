@@ -40,6 +40,7 @@ static sb_status open_directory(run *r, const sb_run_options *options, sb_error 
     if (options->live_port > 0)
         return sb_fail(error, SB_BAD_INPUT,
                        "--live: a run of offshore is not shown in browsers, expected a scene without offshore");
+    r->made_directory = access(r->directory, F_OK) != 0;
     sb_status status = sb_make_directories(r->directory, error);
     if (status == SB_OK) status = sb_lock_directory(r->directory, "another directory", &r->lock, error);
     return status == SB_OK ? sb_run_check_directory(r, options, error) : status;
@@ -192,6 +193,7 @@ sb_status sb_grid_run(const sb_scene *scene, const char *directory, const sb_run
     sb_particle_list_free(&g.record.frames);
     sb_offshore_destroy(g.water);
     sb_run_files_free(&g.r.earlier);
+    if (g.r.made_directory && status != SB_OK) rmdir(directory); /* fails, as it should, if there are files */
     if (g.r.lock >= 0) close(g.r.lock);
     if (status != SB_OK && error) *error = local;
     return status;

@@ -257,6 +257,7 @@ sb_status sb_run(const sb_scene *scene, const char *directory, const sb_run_opti
     release_shared(&r, options->thread_remains);
     sb_particle_list_free(&r.grid_frames);
     sb_run_files_free(&r.earlier);
+    if (r.made_directory && status != SB_OK) rmdir(r.directory); /* fails, as it should, if there are files */
     if (r.lock >= 0) close(r.lock);
     if (status != SB_OK && error) *error = local;
     return status;

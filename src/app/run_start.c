@@ -64,6 +64,7 @@ static sb_status clear_earlier_run(run *r, sb_error *error)
 /* Locks the directory, because two runs would overwrite each other's files, and checks that the run may use it. */
 static sb_status open_directory(run *r, const sb_run_options *options, origin *from, sb_error *error)
 {
+    r->made_directory = access(r->directory, F_OK) != 0;
     sb_status status = sb_make_directories(r->directory, error);
     if (status == SB_OK) status = sb_lock_directory(r->directory, "another directory", &r->lock, error);
     if (status == SB_OK) status = sb_checkpoint_begin(r, error);

@@ -97,6 +97,7 @@ typedef struct run {
     sb_scene resolved;     /* a shallow copy of the caller's scene, with values that depend on the model */
     const sb_scene *scene; /* points to resolved */
     const char *directory;
+    bool made_directory;  /* the run has made it: if the run fails before it writes there, it is removed */
     int lock;             /* descriptor of the locked directory; -1: not locked yet */
     sb_run_files earlier; /* the files in the directory before the run began */
     sb_model model;

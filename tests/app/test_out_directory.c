@@ -86,6 +86,23 @@ static void other_peoples_files_are_left_alone(void **state)
 }
 
 /* Only --overwrite replaces an earlier run. */
+/* A sea that an open side lets out is found when the model is made. */
+static void a_refused_run_leaves_no_folder(void **state)
+{
+    (void)state;
+    write_text("escape.yaml", "title: t\ndimensions: 2\nresolution: 0.1\nduration: 1\n"
+                              "domain: {min: [0, 0], max: [2, 1], sides: {x_max: open}}\n"
+                              "water: {level: 0.5, seed: [1, 0.2]}\n");
+    outcome o = RUN(1, "run", "escape.yaml", "--out=escaped", "--quiet");
+    assert_contains(o.err, "escape.yaml: domain.sides.x_max: the sea escapes through the open side x_max");
+    outcome_free(&o);
+    assert_false(exists("escaped"));
+    /* A folder that was there stays. */
+    assert_int_equal(mkdir(in_folder("escaped"), 0777), 0);
+    RUN_AND_FORGET(1, "run", "escape.yaml", "--out=escaped", "--quiet");
+    assert_true(exists("escaped"));
+}
+
 static void a_run_is_replaced_on_request(void **state)
 {
     (void)state;
@@ -206,6 +223,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(other_peoples_files_are_left_alone),
+        cmocka_unit_test(a_refused_run_leaves_no_folder),
         cmocka_unit_test(a_run_is_replaced_on_request),
         cmocka_unit_test(a_run_that_has_not_ended_is_kept),
         cmocka_unit_test(a_finished_run_without_checkpoints_is_kept),

@@ -46,12 +46,18 @@ static int spread(sb_columns *c, front *f, size_t from, size_t to_column, bool a
     return 0;
 }
 
-static sb_status escapes(sb_vec3 at, int side, sb_error *error)
+static const char *path_of(const sb_columns *c)
 {
-    return sb_fail(error, SB_BAD_INPUT,
-                   "the sea escapes through the open side %s at (%g, %g, %g): expected a wall or a "
-                   "solid that holds it below water.level",
-                   sb_side_names[side], at.x, at.y, at.z);
+    return c->scene->path ? c->scene->path : "the scene";
+}
+
+static sb_status escapes(const sb_columns *c, sb_vec3 at, int side, sb_error *error)
+{
+    return sb_fail(
+        error, SB_BAD_INPUT,
+        "%.300s: domain.sides.%s: the sea escapes through the open side %s at (%g, %g, %g): expected a wall or a "
+        "solid that holds it below water.level",
+        path_of(c), sb_side_names[side], sb_side_names[side], at.x, at.y, at.z);
 }
 
 /* Requires a solid between each layer of a wet run and the open side beside it. */
@@ -61,7 +67,7 @@ static sb_status check_side(const sb_columns *c, const sb_run *run, int64_t i, i
     double half = 0.5 * (side < SB_Y_MIN ? c->dx : c->dy);
     for (int32_t layer = run->first; layer < run->first + run->count; ++layer) {
         sb_vec3 at = sb_columns_center(c, i, j, layer), end = sb_madd(at, half, out[side]);
-        if (sb_columns_clear(c, at, end)) return escapes(end, side, error);
+        if (sb_columns_clear(c, at, end)) return escapes(c, end, side, error);
     }
     return SB_OK;
 }
@@ -74,7 +80,7 @@ static sb_status visit(sb_columns *c, front *f, size_t column, size_t run, sb_er
     const sb_run *from = c->runs + run;
     if (side[SB_Z_MIN] == SB_SIDE_OPEN && from->low <= c->bottom) {
         sb_vec3 at = sb_columns_center(c, i, j, 0);
-        return escapes(sb_vec(at.x, at.y, c->bottom), SB_Z_MIN, error);
+        return escapes(c, sb_vec(at.x, at.y, c->bottom), SB_Z_MIN, error);
     }
     const int sides = c->scene->dimensions == 2 ? 2 : 4;
     for (int s = 0; s < sides; ++s) {
@@ -99,9 +105,9 @@ static sb_status check_seed(const sb_columns *c, sb_vec3 seed, sb_error *error)
     for (size_t i = 0; i < c->solid_count; ++i)
         if (sb_solid_contains(c->solids[i].solid, seed))
             return sb_fail(error, SB_BAD_INPUT,
-                           "water.seed (%g, %g, %g) is inside the body \"%s\": expected a point in "
+                           "%.300s: water.seed: (%g, %g, %g) is inside the body \"%s\": expected a point in "
                            "the water",
-                           seed.x, seed.y, seed.z, c->solids[i].name);
+                           path_of(c), seed.x, seed.y, seed.z, c->solids[i].name);
     return SB_OK;
 }
 
@@ -138,9 +144,9 @@ sb_status sb_columns_flood(sb_columns *c, sb_error *error)
     size_t column = 0, run = 0;
     if (c->nx == 0 || !find_start(c, seed, &column, &run))
         return sb_fail(error, SB_BAD_INPUT,
-                       "water.seed (%g, %g, %g) has no room for a particle around it: expected a "
+                       "%.300s: water.seed: (%g, %g, %g) has no room for a particle around it: expected a "
                        "point in open water, or a finer resolution",
-                       seed.x, seed.y, seed.z);
+                       path_of(c), seed.x, seed.y, seed.z);
     front f = {0};
     c->runs[run].wet = true;
     if (front_push(&f, column, run)) status = sb_fail_memory(error, "the flood fill of the sea");
