@@ -22,13 +22,45 @@ static sb_status check_times(const sb_line_point *point, const sb_scene *scene, 
     return SB_OK;
 }
 
-static bool like_degrees(const sb_line *series)
+/* Largest distance of a point from the first one, m. */
+static double extent_of(const sb_line *series)
 {
+    const sb_line_point *first = series->points;
+    double extent = 0;
+    for (size_t i = 1; i < series->count; i++)
+        extent = fmax(extent, hypot(series->points[i].x - first->x, series->points[i].y - first->y));
+    return extent;
+}
+
+/* Distance of a point from the sides of the domain, from within or from outside, m. */
+static double from_sides(const sb_domain *domain, const sb_line_point *point)
+{
+    const double x = fmax(domain->min.x - point->x, point->x - domain->max.x);
+    const double y = fmax(domain->min.y - point->y, point->y - domain->max.y);
+    return x > 0 || y > 0 ? hypot(fmax(x, 0), fmax(y, 0)) : -fmax(x, y);
+}
+
+/* Whether the points are most likely longitudes and latitudes: the side of a domain is a small part of a degree, and
+   none of them is at a side, where points in metres would be. A table with a unit of its own has none. */
+static bool like_degrees(const sb_line *series, const sb_scene *scene)
+{
+    const sb_domain *domain = &scene->domain;
+    const double side = fmax(domain->max.x - domain->min.x, domain->max.y - domain->min.y);
+    if (scene->given.source != SB_GIVEN_TABLE || scene->given.unit != SB_UNIT_M) return false;
+    if (scene->given.zero[0] != 0 || scene->given.zero[1] != 0 || extent_of(series) > 0.05 * side) return false;
     for (size_t i = 0; i < series->count; i++) {
         const sb_line_point *point = &series->points[i];
         if (point->x < -180 || point->x > 360 || fabs(point->y) > 90) return false;
+        if (from_sides(domain, point) <= scene->resolution) return false;
     }
     return true;
+}
+
+/* What may be wrong with points that lie within a spacing. */
+static const char *near_remedy(const sb_line *series, const sb_scene *scene)
+{
+    if (like_degrees(series, scene)) return "; these look like longitudes and latitudes";
+    return scene->given.source == SB_GIVEN_TABLE ? "; the key sea.units is the unit of the table" : "";
 }
 
 static sb_status check_places(const sb_line *series, const sb_scene *scene, const char *path, sb_error *error)
@@ -47,9 +79,9 @@ static sb_status check_places(const sb_line *series, const sb_scene *scene, cons
             "%.500s: the point (%g, %g) lies %g m from the domain, expected points along its side, in metres "
             "of the scene%s",
             path, point->x, point->y, hypot(dx, dy),
-            like_degrees(series) ? "; these look like longitudes and latitudes"
-            : table              ? "; sea.zero is the place of the table that is (0, 0) of the scene"
-                                 : "");
+            like_degrees(series, scene) ? "; these look like longitudes and latitudes"
+            : table                     ? "; sea.zero is the place of the table that is (0, 0) of the scene"
+                                        : "");
     }
     return SB_OK;
 }
@@ -57,18 +89,15 @@ static sb_status check_places(const sb_line *series, const sb_scene *scene, cons
 /* Refuses points that are all at one place for the scene, such as degrees read as metres. */
 static sb_status check_extent(const sb_line *series, const sb_scene *scene, const char *path, sb_error *error)
 {
-    double extent = 0;
     if (scene->dimensions == 2) return SB_OK;
-    for (size_t i = 1; i < series->count; i++)
-        extent =
-            fmax(extent, hypot(series->points[i].x - series->points[0].x, series->points[i].y - series->points[0].y));
+    const double extent = extent_of(series);
     if (!(extent < scene->resolution)) return SB_OK;
     return sb_fail(
         error, SB_BAD_INPUT,
         "%.500s: its %zu points lie within %.3g m of (%g, %g), less than a spacing of %g m, expected points along "
         "a side, in metres of the scene%s",
         path, series->count, extent, series->points[0].x, series->points[0].y, scene->resolution,
-        like_degrees(series) ? "; these look like longitudes and latitudes" : "");
+        near_remedy(series, scene));
 }
 
 /* Refuses points that are not in their order along the side: a line around a corner turns by 90 degrees at most. */

@@ -90,6 +90,25 @@ static void without_a_header_and_with_comments(void **state)
     sea_free(&c);
 }
 
+/* A guess at degrees needs places that no side explains. */
+static void what_looks_like_degrees(void **state)
+{
+    (void)state;
+    static const char *const tables[][3] = {
+        {TABLE ", units: mm", "t,x,y,eta,u\n0,50,50,0,0\n29,50,50,0,0\n0,50,53,0,0\n29,50,53,0,0\n",
+         "its 2 points lie within 0.003 m of (0.05, 0.05), less than a spacing of 0.1 m"},
+        {TABLE, "t,x,y,eta,u\n0,0,0,0,0\n29,0,0,0,0\n0,0,0.09,0,0\n29,0,0.09,0,0\n", "its 2 points lie within 0.09 m"},
+        {TABLE, "t,x,y,eta,u\n0,0,50,0,0\n29,0,50,0,0\n0,0,60,0,0\n29,0,60,0,0\n", "the point (0, 50) lies 44 m"},
+    };
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
+        sea_case c;
+        sea_refused(SEA_SPACE, tables[i][0], tables[i][1], tables[i][2]);
+        assert_int_equal(sea_try(&c, SEA_SPACE, tables[i][0], tables[i][1]), SB_BAD_INPUT);
+        if (strstr(c.error.text, "longitudes")) fail_msg("%s", c.error.text);
+        sea_free(&c);
+    }
+}
+
 /* Two gauges as GeoClaw writes them, joined to one file; the second one is dry at first. */
 #define GEOCLAW(number, y)                                                                                             \
     "# gauge_id=   " number " location=(  0.0000000000E+00  " y " ) num_eqn=  4\n"                                     \
@@ -184,6 +203,7 @@ int main(void)
         cmocka_unit_test(several_points_along_a_side),
         cmocka_unit_test(a_place_is_the_zero_of_the_scene),
         cmocka_unit_test(without_a_header_and_with_comments),
+        cmocka_unit_test(what_looks_like_degrees),
         cmocka_unit_test(gauges_of_geoclaw),
         cmocka_unit_test(what_is_refused),
         cmocka_unit_test(a_late_start_is_warned_of),
