@@ -48,9 +48,9 @@ static sb_status check_datum(const table *sea, const sb_scene *scene, sb_sea_not
     if (fabs(away) > 2 * scene->resolution)
         snprintf(
             notes->warning, sizeof notes->warning,
-            "sea.datum: the surface begins %g m from the still level of %g m: a bore enters at once; expected another "
+            "sea.datum: the surface begins %g m %s the still level of %g m: a bore enters at once; expected another "
             "datum, or another start",
-            away, scene->given.level);
+            fabs(away), away < 0 ? "below" : "above", scene->given.level);
     return SB_OK;
 }
 

@@ -191,7 +191,10 @@ static void a_late_start_is_warned_of(void **state)
     sea_case c;
     sea_make(&c, SEA_FLAT, TABLE, "t,eta,u\n0,0.3,0\n20,0.3,0\n");
     assert_non_null(sb_sea_warning(c.sea));
-    assert_non_null(strstr(sb_sea_warning(c.sea), "begins 0.3 m"));
+    assert_non_null(strstr(sb_sea_warning(c.sea), "begins 0.3 m above the still level"));
+    sea_free(&c);
+    sea_make(&c, SEA_FLAT, TABLE, "t,eta,u\n0,-0.3,0\n20,-0.3,0\n");
+    assert_non_null(strstr(sb_sea_warning(c.sea), "begins 0.3 m below the still level"));
     sea_free(&c);
 }
 

@@ -103,9 +103,9 @@ static sb_status warn_first(const sb_scene *scene, const farthest *f, sb_model *
                         : source == SB_GIVEN_TABLE  ? "sea.datum"
                                                     : "sea.level";
     return sb_model_warn(model, error,
-                         "sea: the given water begins %g m from the still water of water.level: a bore enters at "
+                         "sea: the given water begins %g m %s the still water of water.level: a bore enters at "
                          "once; expected another sea.start or %s",
-                         f->height, level);
+                         fabs(f->height), f->height < 0 ? "below" : "above", level);
 }
 
 /* Whether a source leaves less than a spacing of water at time t on every column that has SB_SEA_DEEP layers at the
