@@ -35,9 +35,10 @@ void sb_rows_close(sb_rows *rows)
 char *sb_rows_next(sb_rows *rows)
 {
     while (rows->next) {
-        char *line = rows->next, *end = strchr(line, '\n');
-        if (end) *end = '\0';
-        rows->next = end ? end + 1 : NULL;
+        char *line = rows->next, *end = line + strcspn(line, "\r\n");
+        const size_t mark = strncmp(end, "\r\n", 2) == 0 ? 2 : 1;
+        rows->next = *end ? end + mark : NULL;
+        *end = '\0';
         rows->line++;
         line += strspn(line, " \t\r");
         if (*line) return line;
@@ -65,8 +66,8 @@ sb_status sb_rows_cut(sb_rows *rows, char *line, sb_error *error)
         if (!marked) line += strspn(line, separators);
         if (!marked && !*line) break;
         if (rows->cell_count == SB_ROWS_CELLS)
-            return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: more than %d columns", rows->path, rows->line,
-                           SB_ROWS_CELLS);
+            return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: has more columns than %d, expected at most %d", rows->path,
+                           rows->line, SB_ROWS_CELLS, SB_ROWS_CELLS);
         char *end = line + strcspn(line, separators), *after = *end ? end + 1 : NULL;
         *end = '\0';
         rows->cells[rows->cell_count++] = trim(line);

@@ -21,7 +21,7 @@ typedef struct sb_rows {
 sb_status sb_rows_open(const char *path, sb_rows *rows, sb_error *error);
 void sb_rows_close(sb_rows *rows);
 
-/* Returns the next line that is not empty, without its newline and leading blanks; NULL at the end. */
+/* Returns the next line that is not empty, without its end (LF, CR LF or CR) and leading blanks; NULL at the end. */
 char *sb_rows_next(sb_rows *rows);
 
 /* Cuts a line into cells, at commas or semicolons if it has any, otherwise at blanks; quotes around a cell are removed.

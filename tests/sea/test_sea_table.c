@@ -109,6 +109,18 @@ static void what_looks_like_degrees(void **state)
     }
 }
 
+/* Ends of lines of other systems. */
+static void ends_of_lines(void **state)
+{
+    (void)state;
+    sea_case c;
+    sea_make(&c, SEA_FLAT, TABLE, "t,eta,u\r0,0,0\r20,0.2,0.1\r");
+    assert_near(sea_at(&c, 20, 0, 0, 0).velocity[0], 0.1, 1e-12);
+    sea_free(&c);
+    sea_refused(SEA_FLAT, TABLE, "t,eta,u\r0,0,0\r20,0.2,a\r", "table.csv:3: u is a,");
+    sea_refused(SEA_FLAT, TABLE, "t,eta,u\r\n0,0,0\r\n20,0.2,a\r\n", "table.csv:3: u is a,");
+}
+
 /* Two gauges as GeoClaw writes them, joined to one file; the second one is dry at first. */
 #define GEOCLAW(number, y)                                                                                             \
     "# gauge_id=   " number " location=(  0.0000000000E+00  " y " ) num_eqn=  4\n"                                     \
@@ -168,6 +180,9 @@ static void what_is_refused(void **state)
                 "table.csv:1: no column is y, expected t, eta, u");
     sea_refused(SEA_FLAT, TABLE, "0,0\n1,2\n", "table.csv:1: 2 columns without a header");
     sea_refused(SEA_FLAT, TABLE, "t,eta,eta,u\n", "two columns are eta");
+    char wide[400] = "t,eta,u";
+    for (int i = 3; i < 65; i++) strcat(wide, ",a");
+    sea_refused(SEA_FLAT, TABLE, strcat(wide, "\n"), "table.csv:1: has more columns than 64, expected at most 64");
     sea_refused(SEA_FLAT, TABLE, "t (s), eta (mm), u\n0,0,0\n", "names the unit mm, expected seconds and m");
     sea_refused(SEA_FLAT, TABLE, "t (min), eta, u\n0,0,0\n", "names the unit min");
     sea_refused(SEA_FLAT, TABLE, "\n\n", "is empty");
@@ -207,6 +222,7 @@ int main(void)
         cmocka_unit_test(a_place_is_the_zero_of_the_scene),
         cmocka_unit_test(without_a_header_and_with_comments),
         cmocka_unit_test(what_looks_like_degrees),
+        cmocka_unit_test(ends_of_lines),
         cmocka_unit_test(gauges_of_geoclaw),
         cmocka_unit_test(what_is_refused),
         cmocka_unit_test(a_late_start_is_warned_of),
