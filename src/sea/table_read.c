@@ -161,6 +161,18 @@ static sb_status read_location(const sb_rows *rows, const char *line, double *x,
 /* Depth below which GeoClaw's momentum is not divided by it, m; its own default is 1e-3. */
 static const double DRY = 1e-3;
 
+/* GeoClaw can write a gauge's rows to a binary file beside the text, which then has the header only. */
+static sb_status check_format(const sb_rows *rows, const char *line, sb_error *error)
+{
+    static const char key[] = "file format ";
+    const char *at = strstr(line, key);
+    if (!at || strncmp(at += strlen(key), "ascii", 5) == 0) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT,
+                   "%.500s:%zu: a gauge of GeoClaw in the format %.*s, whose rows are in another file, expected ascii: "
+                   "gaugedata.file_format = 'ascii' in setrun.py",
+                   rows->path, rows->line, (int)strcspn(at, " ,\t\r"), at);
+}
+
 /* One gauge after another: "# gauge_id= 1 location=( x y ) ...", then rows of level, t, h, hu, hv, eta. */
 static sb_status read_geoclaw(sb_rows *rows, char *line, sb_given_unit unit, sb_line *series, sb_error *error)
 {
@@ -170,6 +182,7 @@ static sb_status read_geoclaw(sb_rows *rows, char *line, sb_given_unit unit, sb_
     for (; status == SB_OK && line; line = sb_rows_next(rows)) {
         if (*line == '#') {
             if (strstr(line, "gauge_id")) status = read_location(rows, line, &x, &y, error);
+            if (status == SB_OK) status = check_format(rows, line, error);
             continue;
         }
         status = sb_rows_cut(rows, line, error);

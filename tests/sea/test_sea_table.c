@@ -148,6 +148,11 @@ static void gauges_of_geoclaw(void **state)
     sea_refused(SEA_SPACE, TABLE, "# gauge_id= 1 num_eqn= 4\n01 0 1 0 0 0\n",
                 "table.csv:1: a gauge of GeoClaw without");
     sea_refused(SEA_SPACE, TABLE, GEOCLAW("1", "0") "01 0 1 0 0\n", "table.csv:3: eta is missing");
+    sea_refused(
+        SEA_SPACE, TABLE, GEOCLAW("1", "0") "# file format binary64, time series in .bin file\n",
+        "table.csv:3: a gauge of GeoClaw in the format binary64, whose rows are in another file, expected ascii");
+    sea_refused(SEA_SPACE, TABLE, GEOCLAW("1", "0") "# file format ascii, time series follow in this file\n",
+                "has no rows");
 }
 
 static void what_is_refused(void **state)
