@@ -60,7 +60,7 @@ static sb_status fill(table *made, const sb_scene *scene, sb_sea_notes *notes, s
     sb_rows rows;
     sb_status status = sb_rows_open(given->file, &rows, error);
     if (status != SB_OK) return status;
-    status = sb_table_read(&rows, given->unit, scene->dimensions, &made->series, error);
+    status = sb_table_read(&rows, scene, &made->series, error);
     sb_rows_close(&rows);
     for (size_t i = 0; i < made->series.count; i++) {
         made->series.points[i].x -= given->zero[0];

@@ -104,6 +104,21 @@ static sb_status check_unit(const sb_rows *rows, const char *line, sb_given_unit
                    rows->line, found, unit_names[unit]);
 }
 
+/* The side at which a velocity along y comes in; NULL: none. */
+static const char *side_across_y(const sb_scene *scene)
+{
+    return sb_scene_given_side(scene, SB_Y_MIN) ? "y_min" : sb_scene_given_side(scene, SB_Y_MAX) ? "y_max" : NULL;
+}
+
+static sb_status check_v(const sb_rows *rows, const sb_scene *scene, const layout *found, sb_error *error)
+{
+    const char *side = side_across_y(scene);
+    if (found->column[V] >= 0 || !side) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT,
+                   "%.500s:%zu: no column is v, expected v, the velocity along y, because the water is given at %s",
+                   rows->path, rows->line, side);
+}
+
 static sb_status add_row(const sb_rows *rows, const double *value, double unit, sb_line *series, sb_error *error)
 {
     char place[SB_ROWS_PLACE];
@@ -111,8 +126,7 @@ static sb_status add_row(const sb_rows *rows, const double *value, double unit, 
     return sb_line_add(series, unit * value[X], unit * value[Y], value[T], channels, sb_rows_place(rows, place), error);
 }
 
-static sb_status read_csv(sb_rows *rows, char *line, sb_given_unit unit, int dimensions, sb_line *series,
-                          sb_error *error)
+static sb_status read_csv(sb_rows *rows, char *line, const sb_scene *scene, sb_line *series, sb_error *error)
 {
     static const char *const what[] = {"t", "x", "y", "eta", "u", "v"};
     layout found = {.cells = 0};
@@ -122,7 +136,7 @@ static sb_status read_csv(sb_rows *rows, char *line, sb_given_unit unit, int dim
         const bool header = !known && sb_columns_header(line, strcspn(line, "#"));
         if (*line == '#') continue;
         line[strcspn(line, "#")] = '\0';
-        if (header) status = check_unit(rows, line, unit, error);
+        if (header) status = check_unit(rows, line, scene->given.unit, error);
         /* "0;0,12;0" has three columns, but four cells, as t, eta, u, v would have. */
         if (status == SB_OK && !header && strchr(line, ';') && strchr(line, ','))
             return sb_fail(
@@ -131,7 +145,8 @@ static sb_status read_csv(sb_rows *rows, char *line, sb_given_unit unit, int dim
                 rows->path, rows->line);
         if (status == SB_OK) status = sb_rows_cut(rows, line, error);
         if (status == SB_OK && !known)
-            status = header ? read_header(rows, dimensions, &found, error) : guess_layout(rows, &found, error);
+            status = header ? read_header(rows, scene->dimensions, &found, error) : guess_layout(rows, &found, error);
+        if (status == SB_OK && !known) status = check_v(rows, scene, &found, error);
         if (status != SB_OK) return status;
         const bool first = !known;
         known = true;
@@ -140,7 +155,7 @@ static sb_status read_csv(sb_rows *rows, char *line, sb_given_unit unit, int dim
         double value[COLUMNS] = {0};
         for (int c = 0; status == SB_OK && c < COLUMNS; c++)
             if (found.column[c] >= 0) status = sb_rows_number(rows, (size_t)found.column[c], what[c], &value[c], error);
-        if (status == SB_OK) status = add_row(rows, value, metres[unit], series, error);
+        if (status == SB_OK) status = add_row(rows, value, metres[scene->given.unit], series, error);
     }
     return status;
 }
@@ -196,12 +211,12 @@ static sb_status read_geoclaw(sb_rows *rows, char *line, sb_given_unit unit, sb_
     return status;
 }
 
-sb_status sb_table_read(sb_rows *rows, sb_given_unit unit, int dimensions, sb_line *series, sb_error *error)
+sb_status sb_table_read(sb_rows *rows, const sb_scene *scene, sb_line *series, sb_error *error)
 {
     char *line = sb_rows_next(rows);
     if (!line) return sb_fail(error, SB_BAD_INPUT, "%.500s: is empty, expected rows of t, eta, u", rows->path);
     series->channels = SB_TABLE_CHANNELS;
     const bool geoclaw = *line == '#' && strstr(line, "gauge_id");
-    return geoclaw ? read_geoclaw(rows, line, unit, series, error)
-                   : read_csv(rows, line, unit, dimensions, series, error);
+    return geoclaw ? read_geoclaw(rows, line, scene->given.unit, series, error)
+                   : read_csv(rows, line, scene, series, error);
 }

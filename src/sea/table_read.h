@@ -9,8 +9,8 @@
 /* Channels of a table: surface above its datum in m, velocities in m/s. */
 enum { SB_TABLE_ETA, SB_TABLE_U, SB_TABLE_V, SB_TABLE_CHANNELS };
 
-/* Reads all rows of an open file in the unit that the scene names; points of a scene of 3 dimensions have x and y.
-   SB_BAD_INPUT names the file, the line and what was expected. */
-sb_status sb_table_read(sb_rows *rows, sb_given_unit unit, int dimensions, sb_line *series, sb_error *error);
+/* Reads all rows of an open file in the unit that the scene names; points of a scene of 3 dimensions have x and y, and
+   rows have v where a side across y is given. SB_BAD_INPUT names the file, the line and what was expected. */
+sb_status sb_table_read(sb_rows *rows, const sb_scene *scene, sb_line *series, sb_error *error);
 
 #endif

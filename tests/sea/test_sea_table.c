@@ -121,6 +121,26 @@ static void ends_of_lines(void **state)
     sea_refused(SEA_FLAT, TABLE, "t,eta,u\r\n0,0,0\r\n20,0.2,a\r\n", "table.csv:3: u is a,");
 }
 
+/* Without v the water at a side across y would come in with half of its wave. */
+static void v_is_required_across_y(void **state)
+{
+    (void)state;
+    static const char side[] =
+        "resolution: 0.1\nduration: 20\ndomain: {min: [0, 0, 0], max: [10, 6, 2], sides: {y_max: "
+        "sea}}\nwater: {level: 1, seed: [1, 1, 0.2]}\n";
+    static const char both[] =
+        "resolution: 0.1\nduration: 20\ndomain: {min: [0, 0, 0], max: [10, 6, 2], sides: {x_min: "
+        "sea, y_max: sea}}\nwater: {level: 1, seed: [1, 1, 0.2]}\n";
+    sea_case c;
+    sea_refused(side, TABLE, "t,eta,u\n0,0,0\n20,0,0\n",
+                "table.csv:1: no column is v, expected v, the velocity along y, because the water is given at y_max");
+    sea_refused(side, TABLE, "0,0,0\n20,0,0\n", "table.csv:1: no column is v");
+    sea_make(&c, both, TABLE ", sides: {y_max: still}", "t,eta,u\n0,0,0\n20,0,0\n");
+    sea_free(&c);
+    sea_make(&c, side, TABLE, "t,eta,u,v\n0,0,0,0\n20,0,0,0\n");
+    sea_free(&c);
+}
+
 /* Two gauges as GeoClaw writes them, joined to one file; the second one is dry at first. */
 #define GEOCLAW(number, y)                                                                                             \
     "# gauge_id=   " number " location=(  0.0000000000E+00  " y " ) num_eqn=  4\n"                                     \
@@ -227,6 +247,7 @@ int main(void)
         cmocka_unit_test(a_place_is_the_zero_of_the_scene),
         cmocka_unit_test(without_a_header_and_with_comments),
         cmocka_unit_test(what_looks_like_degrees),
+        cmocka_unit_test(v_is_required_across_y),
         cmocka_unit_test(ends_of_lines),
         cmocka_unit_test(gauges_of_geoclaw),
         cmocka_unit_test(what_is_refused),
