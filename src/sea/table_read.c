@@ -7,11 +7,26 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum { T, X, Y, ETA, U, V, COLUMNS };
 
+static const char *const column_names[] = {"t", "x", "y", "eta", "u", "v"};
+
 static const double metres[] = {1, 0.01, 0.001, 0.3048};
 static const char *const unit_names[] = {"m", "cm", "mm", "ft"};
+
+/* Words that are units of length or time, in headers. */
+static const struct {
+    const char *word, *unit;
+    bool time;
+} units[] = {
+    {"m", "m", false},      {"metre", "m", false}, {"metres", "m", false}, {"meter", "m", false},
+    {"meters", "m", false}, {"cm", "cm", false},   {"mm", "mm", false},    {"ft", "ft", false},
+    {"feet", "ft", false},  {"foot", "ft", false}, {"km", "km", false},    {"s", "s", true},
+    {"sec", "s", true},     {"ms", "ms", true},    {"min", "min", true},   {"minutes", "min", true},
+    {"h", "h", true},       {"hr", "h", true},     {"hours", "h", true},   {"hour", "h", true},
+};
 
 /* Where each quantity is in a row; -1: nowhere. */
 typedef struct layout {
@@ -42,7 +57,68 @@ static int column_of(const char *cell)
     return COLUMNS;
 }
 
-static sb_status read_header(const sb_rows *rows, int dimensions, layout *found, sb_error *error)
+/* The first unit behind the name of a column that is not the expected one of its kind; NULL: none. A time has no
+   length, so that "t (m)" says nothing. */
+static const char *other_unit(const char *cell, int column, const char *length)
+{
+    static const char parts[] = " \t_()[]/.*^-";
+    cell += strcspn(cell, parts);
+    for (size_t width; *cell; cell += width) {
+        cell += strspn(cell, parts);
+        width = strcspn(cell, parts);
+        for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
+            if (strlen(units[i].word) != width || strncasecmp(cell, units[i].word, width) != 0) continue;
+            if (strcmp(units[i].unit, units[i].time ? "s" : length) == 0 || (column == T && !units[i].time)) continue;
+            return units[i].unit;
+        }
+    }
+    return NULL;
+}
+
+/* A header may name the unit of the scene's key; another one is refused. */
+static sb_status check_unit(const sb_rows *rows, size_t i, int column, sb_given_unit unit, sb_error *error)
+{
+    const char *found = other_unit(rows->cells[i], column, unit_names[unit]);
+    if (!found) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT,
+                   "%.500s:%zu: its column \"%.60s\" names the unit %s, expected seconds and %s, the unit of the key "
+                   "sea.units",
+                   rows->path, rows->line, rows->cells[i], found, unit_names[unit]);
+}
+
+/* Removes blanks before and within brackets, so that a unit belongs to the name before it where blanks separate. */
+static void join_units(char *line)
+{
+    char *to = line;
+    bool within = false;
+    if (strpbrk(line, ",;")) return;
+    for (const char *from = line; *from; from++) {
+        if (*from == '(' || *from == '[') {
+            while (to > line && strchr(" \t", to[-1])) to--;
+            within = true;
+        }
+        if (*from == ')' || *from == ']') within = false;
+        if (!within || !strchr(" \t", *from)) *to++ = *from;
+    }
+    *to = '\0';
+}
+
+/* The side at which a velocity along y comes in; NULL: none. */
+static const char *side_across_y(const sb_scene *scene)
+{
+    return sb_scene_given_side(scene, SB_Y_MIN) ? "y_min" : sb_scene_given_side(scene, SB_Y_MAX) ? "y_max" : NULL;
+}
+
+static sb_status check_v(const sb_rows *rows, const sb_scene *scene, const layout *found, sb_error *error)
+{
+    const char *side = side_across_y(scene);
+    if (found->column[V] >= 0 || !side) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT,
+                   "%.500s:%zu: no column is v, expected v, the velocity along y, because the water is given at %s",
+                   rows->path, rows->line, side);
+}
+
+static sb_status read_header(const sb_rows *rows, const sb_scene *scene, layout *found, sb_error *error)
 {
     for (int c = 0; c < COLUMNS; c++) found->column[c] = -1;
     found->cells = rows->cell_count;
@@ -50,17 +126,20 @@ static sb_status read_header(const sb_rows *rows, int dimensions, layout *found,
         const int column = column_of(rows->cells[i]);
         if (column == COLUMNS) continue;
         if (found->column[column] >= 0)
-            return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: two columns are %s, expected one", rows->path, rows->line,
+            return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: two columns are %s: \"%.60s\" and \"%.60s\", expected one",
+                           rows->path, rows->line, column_names[column], rows->cells[found->column[column]],
                            rows->cells[i]);
         found->column[column] = (int)i;
+        const sb_status status = check_unit(rows, i, column, scene->given.unit, error);
+        if (status != SB_OK) return status;
     }
     const bool x = found->column[X] >= 0, y = found->column[Y] >= 0;
-    const char *missing = found->column[T] < 0         ? "t"
-                          : found->column[ETA] < 0     ? "eta"
-                          : found->column[U] < 0       ? "u"
-                          : y && !x                    ? "x"
-                          : x && !y && dimensions == 3 ? "y"
-                                                       : NULL;
+    const char *missing = found->column[T] < 0                ? "t"
+                          : found->column[ETA] < 0            ? "eta"
+                          : found->column[U] < 0              ? "u"
+                          : y && !x                           ? "x"
+                          : x && !y && scene->dimensions == 3 ? "y"
+                                                              : NULL;
     if (!missing) return SB_OK;
     return sb_fail(
         error, SB_BAD_INPUT,
@@ -94,31 +173,6 @@ static sb_status check_cells(const sb_rows *rows, const layout *found, sb_error 
                    rows->line, cells, found->cells);
 }
 
-/* A header may name the unit of the scene's key; another one is refused. */
-static sb_status check_unit(const sb_rows *rows, const char *line, sb_given_unit unit, sb_error *error)
-{
-    const char *found = sb_columns_unit(line, strlen(line));
-    if (!found || strcmp(found, unit_names[unit]) == 0) return SB_OK;
-    return sb_fail(error, SB_BAD_INPUT,
-                   "%.500s:%zu: its header names the unit %s, expected seconds and %s; see sea.units", rows->path,
-                   rows->line, found, unit_names[unit]);
-}
-
-/* The side at which a velocity along y comes in; NULL: none. */
-static const char *side_across_y(const sb_scene *scene)
-{
-    return sb_scene_given_side(scene, SB_Y_MIN) ? "y_min" : sb_scene_given_side(scene, SB_Y_MAX) ? "y_max" : NULL;
-}
-
-static sb_status check_v(const sb_rows *rows, const sb_scene *scene, const layout *found, sb_error *error)
-{
-    const char *side = side_across_y(scene);
-    if (found->column[V] >= 0 || !side) return SB_OK;
-    return sb_fail(error, SB_BAD_INPUT,
-                   "%.500s:%zu: no column is v, expected v, the velocity along y, because the water is given at %s",
-                   rows->path, rows->line, side);
-}
-
 static sb_status add_row(const sb_rows *rows, const double *value, double unit, sb_line *series, sb_error *error)
 {
     char place[SB_ROWS_PLACE];
@@ -128,7 +182,6 @@ static sb_status add_row(const sb_rows *rows, const double *value, double unit, 
 
 static sb_status read_csv(sb_rows *rows, char *line, const sb_scene *scene, sb_line *series, sb_error *error)
 {
-    static const char *const what[] = {"t", "x", "y", "eta", "u", "v"};
     layout found = {.cells = 0};
     bool known = false;
     sb_status status = SB_OK;
@@ -136,7 +189,7 @@ static sb_status read_csv(sb_rows *rows, char *line, const sb_scene *scene, sb_l
         const bool header = !known && sb_columns_header(line, strcspn(line, "#"));
         if (*line == '#') continue;
         line[strcspn(line, "#")] = '\0';
-        if (header) status = check_unit(rows, line, scene->given.unit, error);
+        if (header) join_units(line);
         /* "0;0,12;0" has three columns, but four cells, as t, eta, u, v would have. */
         if (status == SB_OK && !header && strchr(line, ';') && strchr(line, ','))
             return sb_fail(
@@ -145,7 +198,7 @@ static sb_status read_csv(sb_rows *rows, char *line, const sb_scene *scene, sb_l
                 rows->path, rows->line);
         if (status == SB_OK) status = sb_rows_cut(rows, line, error);
         if (status == SB_OK && !known)
-            status = header ? read_header(rows, scene->dimensions, &found, error) : guess_layout(rows, &found, error);
+            status = header ? read_header(rows, scene, &found, error) : guess_layout(rows, &found, error);
         if (status == SB_OK && !known) status = check_v(rows, scene, &found, error);
         if (status != SB_OK) return status;
         const bool first = !known;
@@ -154,7 +207,8 @@ static sb_status read_csv(sb_rows *rows, char *line, const sb_scene *scene, sb_l
         status = check_cells(rows, &found, error);
         double value[COLUMNS] = {0};
         for (int c = 0; status == SB_OK && c < COLUMNS; c++)
-            if (found.column[c] >= 0) status = sb_rows_number(rows, (size_t)found.column[c], what[c], &value[c], error);
+            if (found.column[c] >= 0)
+                status = sb_rows_number(rows, (size_t)found.column[c], column_names[c], &value[c], error);
         if (status == SB_OK) status = add_row(rows, value, metres[scene->given.unit], series, error);
     }
     return status;

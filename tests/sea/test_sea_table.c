@@ -90,35 +90,41 @@ static void without_a_header_and_with_comments(void **state)
     sea_free(&c);
 }
 
-/* A guess at degrees needs places that no side explains. */
-static void what_looks_like_degrees(void **state)
-{
-    (void)state;
-    static const char *const tables[][3] = {
-        {TABLE ", units: mm", "t,x,y,eta,u\n0,50,50,0,0\n29,50,50,0,0\n0,50,53,0,0\n29,50,53,0,0\n",
-         "its 2 points lie within 0.003 m of (0.05, 0.05), less than a spacing of 0.1 m"},
-        {TABLE, "t,x,y,eta,u\n0,0,0,0,0\n29,0,0,0,0\n0,0,0.09,0,0\n29,0,0.09,0,0\n", "its 2 points lie within 0.09 m"},
-        {TABLE, "t,x,y,eta,u\n0,0,50,0,0\n29,0,50,0,0\n0,0,60,0,0\n29,0,60,0,0\n", "the point (0, 50) lies 44 m"},
-    };
-    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
-        sea_case c;
-        sea_refused(SEA_SPACE, tables[i][0], tables[i][1], tables[i][2]);
-        assert_int_equal(sea_try(&c, SEA_SPACE, tables[i][0], tables[i][1]), SB_BAD_INPUT);
-        if (strstr(c.error.text, "longitudes")) fail_msg("%s", c.error.text);
-        sea_free(&c);
-    }
-}
-
-/* Ends of lines of other systems. */
-static void ends_of_lines(void **state)
+/* Ends of lines of other systems, and a header in which blanks separate and units are in brackets. */
+static void ends_of_lines_and_blanks(void **state)
 {
     (void)state;
     sea_case c;
     sea_make(&c, SEA_FLAT, TABLE, "t,eta,u\r0,0,0\r20,0.2,0.1\r");
     assert_near(sea_at(&c, 20, 0, 0, 0).velocity[0], 0.1, 1e-12);
     sea_free(&c);
+    sea_make(&c, SEA_FLAT, TABLE, "time (s) u [m / s]  eta (m)\r\n0 0 0\r\n20 0.1 0.2\r\n");
+    assert_near(sea_at(&c, 20, 0, 0, 0).velocity[0], 0.1, 1e-12);
+    sea_free(&c);
     sea_refused(SEA_FLAT, TABLE, "t,eta,u\r0,0,0\r20,0.2,a\r", "table.csv:3: u is a,");
     sea_refused(SEA_FLAT, TABLE, "t,eta,u\r\n0,0,0\r\n20,0.2,a\r\n", "table.csv:3: u is a,");
+}
+
+/* The key sea.units is the unit of all columns that are used. */
+static void units_of_a_header(void **state)
+{
+    (void)state;
+    sea_case c;
+    sea_make(&c, SEA_FLAT, TABLE, "time_s,eta_m,u_m_s,depth (km)\n0,0,0,3\n20,0.2,0.1,3\n");
+    sea_free(&c);
+    sea_make(&c, SEA_FLAT, TABLE ", units: ft", "t,eta (feet),u (ft s-1)\n0,0,0\n20,1,1\n");
+    assert_near(sea_at(&c, 20, 0, 0, 0).surface, 1.3048, 1e-12);
+    sea_free(&c);
+    sea_refused(SEA_FLAT, TABLE, "t (s), eta (mm), u\n0,0,0\n",
+                "table.csv:1: its column \"eta (mm)\" names the unit mm, expected seconds and m, the unit of the key "
+                "sea.units");
+    sea_refused(SEA_FLAT, TABLE, "t (min), eta, u\n0,0,0\n", "\"t (min)\" names the unit min");
+    sea_refused(SEA_FLAT, TABLE, "t,eta,u (km/h)\n0,0,0\n", "\"u (km/h)\" names the unit km");
+    sea_refused(SEA_FLAT, TABLE, "t,eta,u (m/min)\n0,0,0\n", "\"u (m/min)\" names the unit min");
+    sea_refused(SEA_FLAT, TABLE ", units: cm", "t,eta (m),u (m/s)\n0,0,0\n20,0,0\n",
+                "\"eta (m)\" names the unit m, expected seconds and cm");
+    sea_refused(SEA_FLAT, TABLE ", units: cm", "t,eta (cm),u (m/s)\n0,0,0\n20,0,0\n", "\"u (m/s)\" names the unit m,");
+    sea_refused(SEA_FLAT, TABLE, "time (s) eta (cm) u (m/s)\n0 0 0\n20 0 0\n", "\"eta(cm)\" names the unit cm");
 }
 
 /* Without v the water at a side across y would come in with half of its wave. */
@@ -139,6 +145,25 @@ static void v_is_required_across_y(void **state)
     sea_free(&c);
     sea_make(&c, side, TABLE, "t,eta,u,v\n0,0,0,0\n20,0,0,0\n");
     sea_free(&c);
+}
+
+/* A guess at degrees needs places that no side explains. */
+static void what_looks_like_degrees(void **state)
+{
+    (void)state;
+    static const char *const tables[][3] = {
+        {TABLE ", units: mm", "t,x,y,eta,u\n0,50,50,0,0\n29,50,50,0,0\n0,50,53,0,0\n29,50,53,0,0\n",
+         "its 2 points lie within 0.003 m of (0.05, 0.05), less than a spacing of 0.1 m"},
+        {TABLE, "t,x,y,eta,u\n0,0,0,0,0\n29,0,0,0,0\n0,0,0.09,0,0\n29,0,0.09,0,0\n", "its 2 points lie within 0.09 m"},
+        {TABLE, "t,x,y,eta,u\n0,0,50,0,0\n29,0,50,0,0\n0,0,60,0,0\n29,0,60,0,0\n", "the point (0, 50) lies 44 m"},
+    };
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
+        sea_case c;
+        sea_refused(SEA_SPACE, tables[i][0], tables[i][1], tables[i][2]);
+        assert_int_equal(sea_try(&c, SEA_SPACE, tables[i][0], tables[i][1]), SB_BAD_INPUT);
+        if (strstr(c.error.text, "longitudes")) fail_msg("%s", c.error.text);
+        sea_free(&c);
+    }
 }
 
 /* Two gauges as GeoClaw writes them, joined to one file; the second one is dry at first. */
@@ -204,12 +229,12 @@ static void what_is_refused(void **state)
     sea_refused(SEA_SPACE, TABLE, "t,x,eta,u\n0,0,0,0\n20,0,0,0\n0,4,0,0\n20,4,0,0\n",
                 "table.csv:1: no column is y, expected t, eta, u");
     sea_refused(SEA_FLAT, TABLE, "0,0\n1,2\n", "table.csv:1: 2 columns without a header");
-    sea_refused(SEA_FLAT, TABLE, "t,eta,eta,u\n", "two columns are eta");
+    sea_refused(SEA_FLAT, TABLE, "t,eta,eta,u\n", "two columns are eta: \"eta\" and \"eta\"");
+    sea_refused(SEA_FLAT, TABLE, "t,eta (m),Surface,u\n",
+                "table.csv:1: two columns are eta: \"eta (m)\" and \"Surface\", expected one");
     char wide[400] = "t,eta,u";
     for (int i = 3; i < 65; i++) strcat(wide, ",a");
     sea_refused(SEA_FLAT, TABLE, strcat(wide, "\n"), "table.csv:1: has more columns than 64, expected at most 64");
-    sea_refused(SEA_FLAT, TABLE, "t (s), eta (mm), u\n0,0,0\n", "names the unit mm, expected seconds and m");
-    sea_refused(SEA_FLAT, TABLE, "t (min), eta, u\n0,0,0\n", "names the unit min");
     sea_refused(SEA_FLAT, TABLE, "\n\n", "is empty");
     sea_refused(SEA_FLAT, TABLE, "t,eta,u\n", "has no rows");
     sea_refused(SEA_FLAT, TABLE, "t,eta,u\n0,0,0\n", "has 1 row, expected at least 2");
@@ -246,9 +271,10 @@ int main(void)
         cmocka_unit_test(several_points_along_a_side),
         cmocka_unit_test(a_place_is_the_zero_of_the_scene),
         cmocka_unit_test(without_a_header_and_with_comments),
-        cmocka_unit_test(what_looks_like_degrees),
+        cmocka_unit_test(ends_of_lines_and_blanks),
+        cmocka_unit_test(units_of_a_header),
         cmocka_unit_test(v_is_required_across_y),
-        cmocka_unit_test(ends_of_lines),
+        cmocka_unit_test(what_looks_like_degrees),
         cmocka_unit_test(gauges_of_geoclaw),
         cmocka_unit_test(what_is_refused),
         cmocka_unit_test(a_late_start_is_warned_of),
