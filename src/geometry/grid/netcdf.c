@@ -129,6 +129,12 @@ static const char *reason_of(int failed)
     return failed > 0 ? "reading failed, expected a whole file" : nc.reason(failed);
 }
 
+/* The library reads on behind a header without variables, so that one with nothing behind it seems to end early. */
+static const char *open_reason(int failed)
+{
+    return failed > 0 ? "its header has no variable of heights, or ends too early" : nc.reason(failed);
+}
+
 /* Reads the coordinates along one axis, which must be regular. */
 static sb_status read_line(const variable *of, int k, double *low, double *step, uint32_t *flip, sb_error *error)
 {
@@ -281,7 +287,7 @@ sb_status sb_netcdf_take(const sb_raster_file *file, const sb_raster_part *part,
     variable of = {0};
     const int failed = nc.open(file->path, NC_NOWRITE, file->size, file->bytes, &id);
     if (failed != NC_NOERR)
-        return sb_fail(error, SB_BAD_INPUT, "not readable as NetCDF: %s; expected a whole file", nc.reason(failed));
+        return sb_fail(error, SB_BAD_INPUT, "not readable as NetCDF: %s; expected a whole file", open_reason(failed));
     sb_status status = find_grid(id, &of, error);
     if (status == SB_OK) status = read_about(&of, about, error);
     if (status == SB_OK && heights &&

@@ -5,6 +5,7 @@
 #include "grid_samples.h"
 
 #include <dirent.h>
+#include <netcdf.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -453,6 +454,11 @@ static void test_refused_netcdf(void **state)
     fputs("no grid\n", file);
     fclose(file);
     EXPECT_REFUSAL(&body, "bad.nc", "not readable as NetCDF");
+    int id, x;
+    assert_int_equal(nc_create(path, NC_CLOBBER, &id), NC_NOERR);
+    assert_int_equal(nc_def_dim(id, "x", 3, &x), NC_NOERR);
+    assert_int_equal(nc_close(id), NC_NOERR);
+    EXPECT_REFUSAL(&body, "bad.nc", "its header has no variable of heights", "expected a whole file");
 }
 
 static void test_refused_places(void **state)
