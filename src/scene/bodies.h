@@ -31,7 +31,11 @@ typedef enum sb_positive {
 typedef enum sb_voids {
     SB_VOIDS_KEEP, /* missing heights are holes in the ground */
     SB_VOIDS_FILL, /* they are interpolated from the heights around them */
-    SB_VOIDS_SHOW  /* holes that show an earlier grid; of offshore.terrain only, no key gives it */
+    /* of the grids of offshore; no key gives them */
+    SB_VOIDS_SHOW,  /* holes that show an earlier grid */
+    SB_VOIDS_COVER, /* holes that a later grid covers */
+    SB_VOIDS_BARE,  /* holes in which no cell may lie */
+    SB_VOIDS_ZERO   /* holes without uplift */
 } sb_voids;
 
 /* One file of a stack of grids. */

@@ -126,6 +126,24 @@ static void check_reports(void **state)
     assert_contains(text.out, "  offshore.uplift\n    hump.xyz: ");
     assert_contains(text.out, "; from (-10, -10) to (20, 50) m; heights 2 to 2 m; no voids\n");
     outcome_free(&text);
+    /* What voids are left to. */
+    write_text("wide.asc",
+               "ncols 4\nnrows 4\nxllcenter -400\nyllcenter -400\ncellsize 250\nnodata_value -1\n-1 -9 -9 -9\n"
+               "-9 -9 -9 -9\n-9 -9 -9 -9\n-9 -9 -9 -9\n");
+    write_text("hole.asc", "ncols 3\nnrows 3\nxllcenter 600\nyllcenter 600\ncellsize 10\nnodata_value -1\n-9 -9 -9\n"
+                           "-9 -1 -9\n-9 -9 -9\n");
+    outcome voids = RUN(0, "check", "basin.yaml", "--set",
+                        "offshore.terrain=[{file: hole.asc}, {file: deep.xyz}, {file: hole.asc}]");
+    const char *second = strstr(voids.out, "1 voids (11.1 %), left to the grids after it");
+    assert_non_null(second);
+    assert_contains(second, "1 voids (11.1 %), left to the grids before it");
+    outcome_free(&voids);
+    voids = RUN(0, "check", "basin.yaml", "--set", "offshore.uplift={file: hole.asc, shift: [-600, -600]}");
+    assert_contains(voids.out, "1 voids (11.1 %), without uplift");
+    outcome_free(&voids);
+    voids = RUN(0, "check", "basin.yaml", "--set", "offshore.terrain=[{file: wide.asc}]");
+    assert_contains(voids.out, "1 voids (6.25 %), in which no cell's centre may lie");
+    outcome_free(&voids);
     outcome json = RUN(0, "check", "basin.yaml", "--json");
     assert_contains(json.out, "\"wet_cells\": 700");
     assert_contains(json.out, "\"name\": \"offshore.terrain[1]\"");
@@ -148,6 +166,14 @@ static void refuse(const char *expected, const char *change)
     outcome_free(&o);
 }
 
+/* A grid without a height at one of its corners, and so at one cell. */
+static void write_pit(void)
+{
+    char text[4096] = "ncols 41\nnrows 21\nxllcenter -0.5\nyllcenter 0.5\ncellsize 2\nnodata_value -1\n";
+    for (int node = 0; node < 41 * 21; node++) strcat(text, node == 41 * 21 - 1 ? "-1\n" : "-9 ");
+    write_text("pit.asc", text);
+}
+
 static void bad_input_is_one_line(void **state)
 {
     (void)state;
@@ -157,6 +183,8 @@ static void bad_input_is_one_line(void **state)
     write_text("void.asc", "ncols 3\nnrows 3\nxllcenter -80\nyllcenter -80\ncellsize 100\nnodata_value -1\n-9 -9 -9\n"
                            "-9 -1 -9\n-9 -9 -9\n");
     refuse("this place is in a void, or in a gap between grids", "offshore.terrain=[void.asc]");
+    write_pit();
+    refuse("no height at (79, 1) m; its grids lie", "offshore.terrain=[pit.asc]");
     write_text("broken.asc", "ncols 3\nnrows x\n");
     refuse("shorebreak: offshore.terrain[0]: ", "offshore.terrain=[broken.asc]");
     refuse("shorebreak: offshore.uplift: ", "offshore.uplift={file: broken.asc}");

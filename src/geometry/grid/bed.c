@@ -176,8 +176,8 @@ static sb_status draw_ground(raster *r, const sb_body *body, sb_offshore_start *
     return status;
 }
 
-static sb_status draw_grid(raster *r, const sb_offshore_grid *grid, const char *key, sb_offshore_start *start,
-                           sb_error *error)
+static sb_status draw_grid(raster *r, const sb_offshore_grid *grid, const char *key, sb_voids voids,
+                           sb_offshore_start *start, sb_error *error)
 {
     const bool own = grid->projection && grid->projection[0];
     const bool states = sb_raster_is(grid->file) || (grid->crs && grid->crs[0]); /* else it is in metres of any */
@@ -189,7 +189,7 @@ static sb_status draw_grid(raster *r, const sb_offshore_grid *grid, const char *
                     .datum = grid->datum,
                     .crs = grid->crs,
                     .projection = own || !states ? grid->projection : start->projection,
-                    .voids = SB_VOIDS_SHOW,
+                    .voids = voids,
                     .translate = sb_vec(grid->x, grid->y, 0)};
     snprintf(body.name, sizeof body.name, "%s", key);
     const size_t first = start->told.count;
@@ -234,13 +234,20 @@ static sb_status check_covered(const raster *r, sb_error *error)
     if (missing == 0) return SB_OK;
     const double x = r->x + (double)(first % r->columns) * r->cell, y = r->y + (double)(first / r->columns) * r->cell;
     const bool hole = x >= r->min[0] && x <= r->max[0] && y >= r->min[1] && y <= r->max[1];
+    char more[60] = "";
+    if (missing > 1) snprintf(more, sizeof more, " and at %zu other cell%s", missing - 1, missing > 2 ? "s" : "");
     return sb_fail(error, SB_BAD_INPUT,
-                   "offshore.terrain: no height at (%.9g, %.9g) m and at %zu other cells; its grids lie from (%.9g, "
-                   "%.9g) to (%.9g, "
-                   "%.9g); expected grids that cover the model, or a smaller offshore.min and max%s",
-                   x, y, missing - 1, r->min[0], r->min[1], r->max[0], r->max[1],
+                   "offshore.terrain: no height at (%.9g, %.9g) m%s; its grids lie from (%.9g, %.9g) to (%.9g, %.9g); "
+                   "expected grids that cover the model, or a smaller offshore.min and max%s",
+                   x, y, more, r->min[0], r->min[1], r->max[0], r->max[1],
                    hole ? "; this place is in a void, or in a gap between grids: a coarse grid before them covers it"
                         : remedy(r));
+}
+
+/* What the voids of grid k of offshore.terrain are left to. */
+static sb_voids voids_of(size_t k, size_t count)
+{
+    return k > 0 ? SB_VOIDS_SHOW : count > 1 ? SB_VOIDS_COVER : SB_VOIDS_BARE;
 }
 
 sb_status sb_bed_fill(const sb_scene *scene, sb_offshore_start *start, sb_error *error)
@@ -255,7 +262,7 @@ sb_status sb_bed_fill(const sb_scene *scene, sb_offshore_start *start, sb_error 
     for (size_t k = 0; status == SB_OK && k < o->terrain_count; k++) {
         char key[48];
         snprintf(key, sizeof key, "offshore.terrain[%zu]", k);
-        status = draw_grid(&r, &o->terrain[k], key, start, error);
+        status = draw_grid(&r, &o->terrain[k], key, voids_of(k, o->terrain_count), start, error);
     }
     if (o->terrain_count > 0) return status == SB_OK ? check_covered(&r, error) : status;
     for (size_t b = 0; status == SB_OK && b < scene->body_count; b++)
@@ -284,7 +291,7 @@ sb_status sb_uplift_fill(const sb_scene *scene, sb_offshore_start *start, sb_err
     sb_status status = SB_OK;
     clear(&r);
     if (scene->offshore.has_uplift) {
-        status = draw_grid(&r, &scene->offshore.uplift, "offshore.uplift", start, error);
+        status = draw_grid(&r, &scene->offshore.uplift, "offshore.uplift", SB_VOIDS_ZERO, start, error);
         if (status == SB_OK) status = check_reached(&r, error);
     }
     for (size_t k = 0; k < r.columns * r.rows; k++)

@@ -25,7 +25,20 @@ __attribute__((format(printf, 2, 3))) static void add(lines *to, const char *for
 /* What the scene does to heights that are missing and stay so. */
 static const char *fate(const sb_body *body)
 {
-    return body->voids == SB_VOIDS_SHOW ? "left to the grids before it" : "kept as holes; `voids: fill` fills them";
+    switch (body->voids) {
+    case SB_VOIDS_SHOW:
+        return "left to the grids before it";
+    case SB_VOIDS_COVER:
+        return "left to the grids after it";
+    case SB_VOIDS_BARE:
+        return "in which no cell's centre may lie";
+    case SB_VOIDS_ZERO:
+        return "without uplift";
+    case SB_VOIDS_KEEP:
+    case SB_VOIDS_FILL:
+        break;
+    }
+    return "kept as holes; `voids: fill` fills them";
 }
 
 static void tell_extent(const sb_body *body, const double min[2], const double max[2], lines *to)
