@@ -24,8 +24,9 @@ typedef enum sb_role {
 } sb_role;
 
 typedef enum sb_positive {
-    SB_POSITIVE_UP,  /* a grid's values are heights */
-    SB_POSITIVE_DOWN /* a grid's values are depths */
+    SB_POSITIVE_UP,   /* a grid's values are heights */
+    SB_POSITIVE_DOWN, /* a grid's values are depths */
+    SB_POSITIVE_AUTO  /* as each file states, otherwise heights */
 } sb_positive;
 
 typedef enum sb_voids {

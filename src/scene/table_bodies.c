@@ -5,7 +5,7 @@
 
 static const char *const shape_names[] = {"mesh", "grid", "box", "cylinder", "plane", "basin", NULL};
 static const char *const role_names[] = {"solid", "terrain", NULL};
-static const char *const positive_names[] = {"up", "down", NULL};
+static const char *const positive_names[] = {"up", "down", "auto", NULL};
 static const char *const voids_names[] = {"keep", "fill", NULL};
 static const char *const up_names[] = {"z", "y", NULL};
 
@@ -119,8 +119,9 @@ static const sb_key keys[] = {
      .applies = MESH, .only = "shape mesh",
      .doc = "Whether each named node of the file becomes a body of its own."},
     {.name = "positive", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_body, positive), .words = positive_names,
-     .fallback = "up", .applies = GRID, .only = "shape grid",
-     .doc = "Direction of the file's numbers: `up` for heights, `down` for depths."},
+     .fallback = "auto", .applies = GRID, .only = "shape grid",
+     .doc = "Direction of the file's numbers: `up` for heights, `down` for depths; `auto` as the attribute `positive` of a "
+            "NetCDF file states, otherwise `up`."},
     {.name = "datum", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_body, datum), .unit = "m", SB_KEY_ANY,
      .fallback = "0", .applies = GRID, .only = "shape grid", .doc = "Value added to all heights."},
     {.name = "min", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_body, min), .unit = "m", SB_KEY_ANY,

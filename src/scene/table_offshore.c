@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-static const char *const positive_names[] = {"up", "down", NULL};
+static const char *const positive_names[] = {"up", "down", "auto", NULL};
 static const char *const side_names[] = {"domain", "wall", "open", "periodic", "paddle", NULL};
 static const char *const coupling_names[] = {"one-way", "two-way", NULL};
 
@@ -35,8 +35,9 @@ static const sb_table side_table = {SB_KEY_ROWS(side_keys)};
          .type = SB_KEY_CHOICE,                                                                                        \
          SB_KEY_AT(sb_offshore_grid, positive),                                                                        \
          .words = positive_names,                                                                                      \
-         .fallback = "up",                                                                                             \
-         .doc = "Direction of the file's numbers: `up` for heights, `down` for depths."},                              \
+         .fallback = "auto",                                                                                           \
+         .doc = "Direction of the file's numbers: `up` for heights, `down` for depths; `auto` as the attribute "       \
+                "`positive` of a NetCDF file states, otherwise `up`."},                                                \
         {.name = "datum",                                                                                              \
          .type = SB_KEY_NUMBER,                                                                                        \
          SB_KEY_AT(sb_offshore_grid, datum),                                                                           \

@@ -139,6 +139,7 @@ void grid_sample_netcdf(const grid_sample *of, const char *path)
     if (of->tile) nc_def_var_deflate(file, z, 1, 1, 4);
     text_attribute(file, z, "units", of->units[2]);
     text_attribute(file, z, "standard_name", of->standard_name);
+    text_attribute(file, z, "positive", of->positive);
     if (of->whole) {
         const double factor = 0.5, offset = 10;
         nc_put_att_double(file, z, "scale_factor", NC_DOUBLE, 1, &factor);

@@ -22,6 +22,7 @@ typedef struct grid_sample {
     unsigned bands; /* GeoTIFF; 0: 1 */
     const char *names[3], *units[3]; /* NetCDF: of x, y, z; NULL: lon, lat, elevation or x, y, z; no units */
     const char *standard_name;       /* NetCDF: of z; NULL: none */
+    const char *positive;            /* likewise */
 } grid_sample;
 
 /* Write the file; they abort on failure. */

@@ -171,7 +171,7 @@ sb_status sb_layer_load(sb_layer *layer, const sb_terrain_area *area, int around
     else
         crop(&layer->grid, &part);
     for (size_t n = 0; n < layer->grid.columns * layer->grid.rows && status == SB_OK; ++n)
-        layer->grid.heights[n] += layer->datum;
+        layer->grid.heights[n] = layer->datum + (layer->down ? -1 : 1) * layer->grid.heights[n];
     return status;
 }
 

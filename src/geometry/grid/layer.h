@@ -10,6 +10,7 @@ enum { SB_LAYER_SYSTEM = 400 };
 typedef struct sb_layer {
     const char *path;
     double datum;                 /* m, added to its heights */
+    bool down;                    /* its numbers are depths, which become heights when they are read */
     bool raster;                  /* read in part, by raster.h; else whole, as text */
     sb_raster_about about;        /* of a text grid: its nodes only */
     char system[SB_LAYER_SYSTEM]; /* its coordinate system; "": none */

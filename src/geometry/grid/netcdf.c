@@ -235,6 +235,7 @@ static sb_status read_about(const variable *of, sb_raster_about *about, sb_error
     read_text(of->file, of->id, "units", text, sizeof text);
     if (!is_any(text, metres))
         return sb_fail(error, SB_BAD_INPUT, "%.100s has the units \"%s\", expected m", of->name, text);
+    about->down = read_text(of->file, of->id, "positive", text, sizeof text) && strcasecmp(text, "down") == 0;
     if (!read_text(of->file, of->id, "standard_name", about->note, sizeof about->note))
         read_text(of->file, of->id, "long_name", about->note, sizeof about->note);
     return SB_OK;

@@ -18,6 +18,7 @@ typedef struct sb_raster_about {
     uint32_t flip_x, flip_y; /* the file stores its columns from east to west, its rows from north to south */
     uint32_t crs, epsg;      /* sb_raster_crs; EPSG code, 0: none */
     uint32_t geographic;     /* x, y are longitude and latitude in degrees */
+    uint32_t down;           /* the file states that its numbers are depths */
     uint32_t vertical;       /* EPSG code of the vertical system, 0: none */
     char note[SB_NAME_MAX];  /* what the file says of its heights, or "" */
 } sb_raster_about;

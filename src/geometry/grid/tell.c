@@ -78,6 +78,11 @@ static void tell_layer(const sb_body *body, const sb_layer *of, lines *to)
     if (of->projection) add(to, " (%.4g m)", of->cell * body->scale);
     add(to, "; ");
     tell_extent(body, of->area.min, of->area.max, to);
+    if (of->down)
+        add(to, "; depths, as its attribute positive states");
+    else if (about->down)
+        add(to, "; its attribute positive: down is not used, because the key positive is %s",
+            body->positive == SB_POSITIVE_DOWN ? "down" : "up");
     add(to, "; vertical datum: ");
     if (about->vertical)
         add(to, "EPSG:%u", about->vertical);

@@ -33,7 +33,7 @@ static sb_status open_layers(const sb_body *body, sb_terrain *ground, sb_error *
 {
     const sb_grid_file alone = {.file = body->file, .crs = body->crs};
     const sb_grid_file *files = body->file_count > 0 ? body->files : &alone;
-    /* Depths are made heights after the files are joined. */
+    /* Where the scene says that all files have depths, they are made heights after the files are joined. */
     const double sign = body->positive == SB_POSITIVE_DOWN ? -1 : 1;
     const size_t count = body->file_count > 0 ? body->file_count : 1;
     ground->layers = sb_alloc(count, sizeof *ground->layers);
@@ -41,7 +41,9 @@ static sb_status open_layers(const sb_body *body, sb_terrain *ground, sb_error *
     sb_status status = SB_OK;
     for (; ground->count < count && status == SB_OK; ++ground->count) {
         const sb_grid_file *from = &files[ground->count];
-        status = sb_layer_open(from->file, from->crs, sign * from->datum, &ground->layers[ground->count], error);
+        sb_layer *layer = &ground->layers[ground->count];
+        status = sb_layer_open(from->file, from->crs, sign * from->datum, layer, error);
+        layer->down = body->positive == SB_POSITIVE_AUTO && layer->about.down;
     }
     return status;
 }

@@ -123,6 +123,46 @@ static void test_netcdf(void **state)
     }
 }
 
+static double depth(double x, double y)
+{
+    return -slope(x, y);
+}
+
+/* Depths are made heights where the file states them, unless the scene has a direction. */
+static void test_stated_depths(void **state)
+{
+    (void)state;
+    static const struct {
+        sb_positive key;
+        const char *file, *told;
+        double sign;
+    } cases[] = {
+        {SB_POSITIVE_AUTO, "down", "; depths, as its attribute positive states; ", -1},
+        {SB_POSITIVE_AUTO, "Down", "; depths, as its attribute positive states; ", -1},
+        {SB_POSITIVE_AUTO, "up", NULL, 1},
+        {SB_POSITIVE_AUTO, NULL, NULL, 1},
+        {SB_POSITIVE_DOWN, NULL, NULL, -1},
+        {SB_POSITIVE_DOWN, "down", "; its attribute positive: down is not used, because the key positive is down", -1},
+        {SB_POSITIVE_UP, "down", "; its attribute positive: down is not used, because the key positive is up", 1},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
+        char *path = path_of("depths.nc");
+        grid_sample sample = plain;
+        sample.height = cases[k].sign < 0 ? depth : slope;
+        sample.positive = cases[k].file;
+        grid_sample_netcdf(&sample, path);
+        sb_body body = grid_of(path);
+        body.positive = cases[k].key;
+        sb_mesh mesh = make(&body);
+        expect_slope(&mesh, 1000);
+        if (cases[k].told)
+            assert_non_null(strstr(mesh.told, cases[k].told));
+        else
+            assert_null(strstr(mesh.told, "positive"));
+        sb_mesh_free(&mesh);
+    }
+}
+
 /* ---- projection ---- */
 
 /* Transverse Mercator on WGS 84 by the Krueger series in the third flattening, to its third order; within UTM its error
@@ -513,6 +553,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_geotiff),
         cmocka_unit_test(test_netcdf),
+        cmocka_unit_test(test_stated_depths),
         cmocka_unit_test(test_degrees_become_utm),
         cmocka_unit_test(test_domain_limits_the_window),
         cmocka_unit_test(test_stack),
