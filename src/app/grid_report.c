@@ -115,7 +115,7 @@ static void report_text(const sb_scene *scene, const sb_grid_facts *f, const sb_
     printf("  steps              about %.0f of %.3g s\n", cost->steps, f->time_step);
     printf("  run time           about %.3g s on %d thread%s\n", cost->seconds, threads, threads == 1 ? "" : "s");
     sb_check_bed_text(scene, told);
-    sb_grid_water_warnings(scene, f, print_line, NULL);
+    sb_grid_water_warnings(scene, f, told, print_line, NULL);
 }
 
 static void report_json(const sb_scene *scene, const sb_grid_facts *f, const sb_grid_cost *cost,
@@ -138,7 +138,7 @@ static void report_json(const sb_scene *scene, const sb_grid_facts *f, const sb_
     sb_json_number(&json, "run_time_s", cost->seconds);
     sb_check_bed_json(told, &json);
     sb_json_open(&json, "warnings", '[');
-    sb_grid_water_warnings(scene, f, print_json, &json);
+    sb_grid_water_warnings(scene, f, told, print_json, &json);
     sb_json_close(&json);
     sb_json_close(&json);
     putchar('\n');

@@ -21,6 +21,7 @@ typedef struct grid_run {
     run r;
     sb_offshore *water;
     sb_grid_facts facts;
+    sb_offshore_told_list told;
     sb_grid_record record;
     double setup, speed; /* s; m/s, greatest speed lately */
     uint64_t iterations;
@@ -64,11 +65,11 @@ static sb_status start(grid_run *g, const sb_run_options *options, sb_error *err
 {
     run *r = &g->r;
     sb_status status = open_directory(r, options, error);
-    if (status == SB_OK) status = sb_grid_water_create(r->scene, &g->water, &g->facts, NULL, error);
+    if (status == SB_OK) status = sb_grid_water_create(r->scene, &g->water, &g->facts, &g->told, error);
     if (status == SB_OK) status = take_directory(r, error);
     if (status != SB_OK) return status;
     sb_team_warnings(warn, r);
-    sb_grid_water_warnings(r->scene, &g->facts, warn, r);
+    sb_grid_water_warnings(r->scene, &g->facts, &g->told, warn, r);
     sb_run_report(r, "%zu x %zu cells of %g m, %zu wet, up to %g m deep, %s", g->facts.columns, g->facts.rows,
                   r->scene->offshore.cell, g->facts.wet, g->facts.deepest,
                   r->scene->offshore.dispersion ? "Serre-Green-Naghdi" : "shallow water");
@@ -192,6 +193,7 @@ sb_status sb_grid_run(const sb_scene *scene, const char *directory, const sb_run
     finish(&g, &status, &local);
     sb_particle_list_free(&g.record.frames);
     sb_offshore_destroy(g.water);
+    sb_offshore_told_free(&g.told);
     sb_run_files_free(&g.r.earlier);
     if (g.r.made_directory && status != SB_OK) rmdir(directory); /* fails, as it should, if there are files */
     if (g.r.lock >= 0) close(g.r.lock);

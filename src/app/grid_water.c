@@ -30,7 +30,7 @@ sb_status sb_grid_water_create(const sb_scene *scene, sb_offshore **water, sb_gr
                                  .deepest = start.deepest,
                                  .time_step = sb_offshore_time_step(made),
                                  .bytes = sb_grid_bytes(scene)};
-    if (status == SB_OK && told) {
+    if (status == SB_OK) {
         *told = start.told;
         start.told = (sb_offshore_told_list){0};
     }
@@ -69,7 +69,8 @@ void sb_grid_wave_warnings(const sb_scene *scene, sb_warning_visit *visit, void 
     }
 }
 
-void sb_grid_water_warnings(const sb_scene *scene, const sb_grid_facts *facts, sb_warning_visit *visit, void *context)
+void sb_grid_water_warnings(const sb_scene *scene, const sb_grid_facts *facts, const sb_offshore_told_list *told,
+                            sb_warning_visit *visit, void *context)
 {
     const bool ignored[] = {scene->measure.plane_count > 0, scene->measure.map.present,
                             scene->render.interval > 0 && scene->render.camera_count > 0, scene->stream.enabled};
@@ -82,6 +83,7 @@ void sb_grid_water_warnings(const sb_scene *scene, const sb_grid_facts *facts, s
         visit(context, text);
     }
     sb_grid_wave_warnings(scene, visit, context);
+    for (size_t w = 0; w < told->warning_count; w++) visit(context, told->warnings[w]);
     bool ground = false; /* a floor beside shapes is usual; missing ground is not */
     for (size_t b = 0; b < scene->body_count; b++)
         ground = ground || scene->bodies[b].shape == SB_SHAPE_GRID || scene->bodies[b].shape == SB_SHAPE_MESH;

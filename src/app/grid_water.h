@@ -12,13 +12,14 @@ typedef struct sb_grid_facts {
     double deepest, time_step, bytes;     /* m, s, bytes */
 } sb_grid_facts;
 
-/* Makes the model of a scene at t = 0. *told: what the grids of its bed state, freed by the caller; NULL: not wanted.
+/* Makes the model of a scene at t = 0. *told: what the grids of its bed state, and warnings, freed by the caller.
    SB_BAD_INPUT also when there is no water, SB_FAILED when it does not fit into memory. */
 sb_status sb_grid_water_create(const sb_scene *scene, sb_offshore **water, sb_grid_facts *facts,
                                sb_offshore_told_list *told, sb_error *error);
 
-/* Settings of the scene that have no effect here, and doubtful ones. */
-void sb_grid_water_warnings(const sb_scene *scene, const sb_grid_facts *facts, sb_warning_visit *visit, void *context);
+/* Settings of the scene that have no effect here, doubtful ones, and the warnings of its bed. */
+void sb_grid_water_warnings(const sb_scene *scene, const sb_grid_facts *facts, const sb_offshore_told_list *told,
+                            sb_warning_visit *visit, void *context);
 
 /* Doubtful settings of its initial wave; those of sb_grid_water_warnings contain them. */
 void sb_grid_wave_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context);

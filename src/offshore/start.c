@@ -5,13 +5,32 @@
 #include "physics/wave_theory.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 
 void sb_offshore_told_free(sb_offshore_told_list *told)
 {
     if (!told) return;
     for (size_t i = 0; i < told->count; i++) sb_free(told->items[i].text);
+    for (size_t i = 0; i < told->warning_count; i++) sb_free(told->warnings[i]);
     sb_free(told->items);
+    sb_free(told->warnings);
     *told = (sb_offshore_told_list){0};
+}
+
+sb_status sb_offshore_warn(sb_offshore_told_list *told, sb_error *error, const char *format, ...)
+{
+    char text[1000];
+    size_t capacity = told->warning_count;
+    va_list values;
+    va_start(values, format);
+    vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+    if (sb_grow((void **)&told->warnings, &capacity, told->warning_count + 1, sizeof *told->warnings) ||
+        !(told->warnings[told->warning_count] = sb_strdup(text)))
+        return sb_fail_memory(error, "a warning");
+    told->warning_count++;
+    return SB_OK;
 }
 
 void sb_offshore_start_free(sb_offshore_start *start)

@@ -12,13 +12,18 @@ typedef struct sb_offshore_told {
     char *text;             /* lines */
 } sb_offshore_told;
 
-/* Owns its items; zero is an empty list. */
+/* Owns its items and its warnings, which are lines; zero is an empty list. */
 typedef struct sb_offshore_told_list {
-    size_t count;
+    size_t count, warning_count;
     sb_offshore_told *items;
+    char **warnings; /* what is probably not meant */
 } sb_offshore_told_list;
 
 void sb_offshore_told_free(sb_offshore_told_list *told);
+
+/* Adds a warning. SB_FAILED without memory. */
+sb_status sb_offshore_warn(sb_offshore_told_list *told, sb_error *error, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 /* Values of columns x rows cells, [row * columns + column]. Owns its arrays; zero is an empty one. */
 typedef struct sb_offshore_start {

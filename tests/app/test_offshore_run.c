@@ -166,6 +166,34 @@ static void refuse(const char *expected, const char *change)
     outcome_free(&o);
 }
 
+/* Heights that are most likely missing, without a value in the header. */
+static void unmarked_missing_heights_are_reported(void **state)
+{
+    (void)state;
+    static const char *const changes[][2] = {
+        {"offshore.terrain=[{file: deep.xyz}, {file: unmarked.asc}]", "warning: offshore.terrain[1]: "},
+        {"offshore.uplift={file: unmarked.asc}", "warning: offshore.uplift: "},
+        {"bodies=[{name: sea, shape: grid, file: unmarked.asc}]", "warning: body \"sea\": "},
+    };
+    write_text("unmarked.asc", "ncols 4\nnrows 3\nxllcenter -10\nyllcenter -10\ncellsize 50\nnodata_value -32767\n"
+                               "-1 -1 -1 -1\n-1 -1 -9999 -1\n-1 -1 -1 -1\n");
+    for (size_t k = 0; k < sizeof changes / sizeof *changes; k++) {
+        outcome o =
+            RUN(0, "check", "basin.yaml", "--set", k == 2 ? "offshore.terrain=[]" : "title=a", "--set", changes[k][0]);
+        assert_contains(o.out, changes[k][1]);
+        assert_contains(o.out, "1 of its grid's nodes within the model is at z = -9999 m, far below all others, which "
+                               "are from -1 to -1 m; the first is at (90, 40): most likely missing heights (nodata)");
+        outcome_free(&o);
+    }
+    RUN_AND_FORGET(0, "run", "basin.yaml", "--out", "u", "--quiet", "--until", "0.1", "--set", changes[0][0]);
+    char *log = text_of("u/run.jsonl");
+    assert_contains(log, "offshore.terrain[1]: 1 of its grid's nodes");
+    sb_free(log);
+    outcome o = RUN(0, "check", "basin.yaml");
+    assert_null(strstr(o.out, "nodata"));
+    outcome_free(&o);
+}
+
 /* A grid without a height at one of its corners, and so at one cell. */
 static void write_pit(void)
 {
@@ -277,13 +305,10 @@ static void tide_and_wave_add(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_run_writes_its_files),
-        cmocka_unit_test(bits_do_not_depend_on_threads),
-        cmocka_unit_test(check_reports),
-        cmocka_unit_test(bad_input_is_one_line),
-        cmocka_unit_test(earlier_files_are_kept_or_replaced),
-        cmocka_unit_test(waves_run_up_a_beach),
-        cmocka_unit_test(tide_and_wave_add),
+        cmocka_unit_test(a_run_writes_its_files), cmocka_unit_test(bits_do_not_depend_on_threads),
+        cmocka_unit_test(check_reports),          cmocka_unit_test(unmarked_missing_heights_are_reported),
+        cmocka_unit_test(bad_input_is_one_line),  cmocka_unit_test(earlier_files_are_kept_or_replaced),
+        cmocka_unit_test(waves_run_up_a_beach),   cmocka_unit_test(tide_and_wave_add),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }

@@ -1,5 +1,6 @@
 #include "geometry/grid/bed.h"
 #include "base/memory.h"
+#include "geometry/grid/missing.h"
 #include "geometry/grid/projection.h"
 #include "geometry/grid/raster.h"
 #include "geometry/mesh/mesh.h"
@@ -26,6 +27,7 @@ typedef struct raster {
     size_t columns, rows;
     double *height;        /* NAN: none yet */
     double min[2], max[2]; /* m, of all that was drawn */
+    double floor, top;     /* m, where heights are expected */
     bool replace;          /* a new height replaces the one that is there; otherwise the higher one stays */
 } raster;
 
@@ -39,6 +41,8 @@ static raster raster_of(const sb_scene *scene, double *height)
                     .rows = sb_bed_rows(scene),
                     .min = {HUGE_VAL, HUGE_VAL},
                     .max = {-HUGE_VAL, -HUGE_VAL},
+                    .floor = scene->domain.min.z,
+                    .top = scene->domain.max.z,
                     .height = height};
 }
 
@@ -108,6 +112,22 @@ static sb_status draw_meshes(raster *r, const char *name, sb_mesh *meshes, size_
     return status;
 }
 
+/* Warns of heights of a grid's nodes at the cells that are most likely missing ones. */
+static sb_status warn_missing(const raster *r, const char *name, const sb_mesh *mesh, sb_offshore_told_list *told,
+                              sb_error *error)
+{
+    const double side = r->rows > 1 ? 0.5 * r->cell : 0, half = 0.5 * r->cell;
+    const sb_vec3 min = sb_vec(r->x - half, r->y - side, r->floor);
+    const sb_vec3 max =
+        sb_vec(r->x + r->cell * (double)r->columns - half, r->y + r->cell * (double)(r->rows - 1) + side, r->top);
+    sb_missing found;
+    char text[600];
+    const sb_status status = sb_missing_find(mesh, min, max, &found, error);
+    if (status != SB_OK || found.count == 0) return status;
+    sb_missing_tell(&found, mesh, "model", text, sizeof text);
+    return sb_offshore_warn(told, error, "%s: %s", name, text);
+}
+
 static void free_meshes(sb_mesh *meshes, size_t count)
 {
     for (size_t m = 0; m < count; m++) sb_mesh_free(&meshes[m]);
@@ -122,12 +142,18 @@ static void keep_projection(sb_mesh *mesh, sb_offshore_start *start)
     mesh->projection = NULL;
 }
 
-static sb_status draw_body(raster *r, const sb_body *body, sb_offshore_start *start, sb_error *error)
+/* alone: there is no model of the bodies, which warns of their grids. */
+static sb_status draw_body(raster *r, const sb_body *body, bool alone, sb_offshore_start *start, sb_error *error)
 {
+    char name[SB_NAME_MAX + 8];
+    snprintf(name, sizeof name, "body \"%s\"", body->name);
     sb_mesh *meshes = NULL;
     size_t count = 0;
     sb_status status = sb_mesh_from_body(body, r->cell, &meshes, &count, error);
-    for (size_t m = 0; m < count; m++) keep_projection(&meshes[m], start);
+    for (size_t m = 0; m < count && status == SB_OK; m++) {
+        keep_projection(&meshes[m], start);
+        if (alone && meshes[m].node_count > 0) status = warn_missing(r, name, &meshes[m], &start->told, error);
+    }
     if (status == SB_OK) status = draw_meshes(r, body->name, meshes, count, &start->told, error);
     free_meshes(meshes, count);
     return status;
@@ -170,6 +196,7 @@ static sb_status draw_ground(raster *r, const sb_body *body, sb_offshore_start *
     for (size_t m = 0; m < count && status == SB_OK; m++) {
         status = check_projection(body, &meshes[m], start->projection, r->cell, error);
         keep_projection(&meshes[m], start);
+        if (status == SB_OK) status = warn_missing(r, body->name, &meshes[m], &start->told, error);
     }
     if (status == SB_OK) status = draw_meshes(r, body->name, meshes, count, &start->told, error);
     free_meshes(meshes, count);
@@ -266,7 +293,7 @@ sb_status sb_bed_fill(const sb_scene *scene, sb_offshore_start *start, sb_error 
     }
     if (o->terrain_count > 0) return status == SB_OK ? check_covered(&r, error) : status;
     for (size_t b = 0; status == SB_OK && b < scene->body_count; b++)
-        status = draw_body(&r, &scene->bodies[b], start, error);
+        status = draw_body(&r, &scene->bodies[b], sb_scene_grid_alone(scene), start, error);
     for (size_t k = 0; k < r.columns * r.rows; k++) {
         start->uncovered += isnan(bed[k]) && scene->body_count > 0;
         if (!(bed[k] >= scene->domain.min.z)) bed[k] = scene->domain.min.z;
@@ -290,6 +317,8 @@ sb_status sb_uplift_fill(const sb_scene *scene, sb_offshore_start *start, sb_err
     raster r = raster_of(scene, start->depth);
     sb_status status = SB_OK;
     clear(&r);
+    r.floor -= scene->offshore.level;
+    r.top -= scene->offshore.level;
     if (scene->offshore.has_uplift) {
         status = draw_grid(&r, &scene->offshore.uplift, "offshore.uplift", SB_VOIDS_ZERO, start, error);
         if (status == SB_OK) status = check_reached(&r, error);

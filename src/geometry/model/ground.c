@@ -1,110 +1,21 @@
 /* Warns of ground at an unintended depth: missing heights that the file does not mark, and ground below the domain's
    floor. */
-#include "base/memory.h"
+#include "geometry/grid/missing.h"
 #include "geometry/model/parts.h"
-
-#include <stdlib.h>
-#include <string.h>
-
-/* A height counts as missing if it is farther from all others than this many times their range and than this many
-   times the domain's height. */
-static const double FAR_OFF = 10;
-
-/* Heights of a grid's nodes within the domain, in ascending order. Owned. */
-typedef struct heights {
-    double *z;
-    size_t count, first, end; /* [first, end): those of the domain's ground */
-} heights;
-
-/* Whether a triangle is partly within the domain. Nodes outside of the domain count, too, if one of their triangles
-   is. */
-static bool is_within(const sb_scene *scene, const sb_mesh *mesh, size_t triangle)
-{
-    const uint32_t *of = mesh->triangles[triangle];
-    sb_vec3 min = mesh->vertices[of[0]], max = min;
-    for (int k = 1; k < 3; ++k) {
-        min = sb_min(min, mesh->vertices[of[k]]);
-        max = sb_max(max, mesh->vertices[of[k]]);
-    }
-    const bool flat = scene->dimensions == 2;
-    const double south = flat ? 0 : scene->domain.min.y, north = flat ? 0 : scene->domain.max.y;
-    return max.x >= scene->domain.min.x && min.x <= scene->domain.max.x && max.y >= south && min.y <= north;
-}
-
-static int compare_numbers(const void *left, const void *right)
-{
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
-/* Selects the domain's ground: of the groups of heights that are separated by wide gaps, the one within the domain's
-   range with the most nodes. */
-static void find_ground(const sb_domain *domain, heights *all)
-{
-    const double gap = FAR_OFF * (domain->max.z - domain->min.z);
-    for (size_t i = 0, end; i < all->count; i = end) {
-        for (end = i + 1; end < all->count && all->z[end] - all->z[end - 1] <= gap;) ++end;
-        if (all->z[i] > domain->max.z || all->z[end - 1] < domain->min.z || end - i <= all->end - all->first) continue;
-        all->first = i;
-        all->end = end;
-    }
-}
-
-static sb_status sort_heights(const sb_scene *scene, const sb_mesh *mesh, uint8_t **within, heights *all,
-                              sb_error *error)
-{
-    *within = sb_alloc(mesh->vertex_count, 1);
-    if (!*within) return sb_fail_memory(error, "the heights of a grid");
-    for (size_t t = 0; t < mesh->triangle_count; ++t)
-        for (int k = 0; k < 3 && is_within(scene, mesh, t); ++k) (*within)[mesh->triangles[t][k]] = 1;
-    memset(*within + mesh->node_count, 0, mesh->vertex_count - mesh->node_count);
-    for (size_t i = 0; i < mesh->node_count; ++i) all->count += (*within)[i];
-    all->z = sb_alloc_untouched(all->count, sizeof *all->z);
-    if (!all->z) return sb_fail_memory(error, "the heights of a grid");
-    for (size_t i = 0, next = 0; i < mesh->node_count; ++i)
-        if ((*within)[i]) all->z[next++] = mesh->vertices[i].z;
-    qsort(all->z, all->count, sizeof *all->z, compare_numbers);
-    find_ground(&scene->domain, all);
-    return SB_OK;
-}
 
 /* *lowest: the lowest height that is not taken for a missing one. */
 static sb_status check_heights(const sb_scene *scene, const sb_model_body *body, double *lowest, sb_model *model,
                                sb_error *error)
 {
-    const sb_mesh *mesh = &body->mesh;
-    uint8_t *within = NULL;
-    heights all = {.count = 0};
-    sb_status status = sort_heights(scene, mesh, &within, &all, error);
-    if (status == SB_OK && all.end > all.first) {
-        const double low = all.z[all.first], high = all.z[all.end - 1];
-        const double far = FAR_OFF * fmax(scene->domain.max.z - scene->domain.min.z, high - low);
-        size_t count = 0, first = SIZE_MAX;
-        double least = (double)INFINITY, most = -(double)INFINITY;
-        for (size_t i = mesh->node_count; i-- > 0;) {
-            const double z = mesh->vertices[i].z;
-            if (!within[i] || (z >= low - far && z <= high + far)) continue;
-            ++count;
-            first = i;
-            least = fmin(least, z);
-            most = fmax(most, z);
-        }
-        *lowest = count > 0 ? low : *lowest;
-        if (count > 0)
-            status = sb_model_warn(
-                model, error,
-                "body \"%s\": %zu of its grid's nodes within the domain %s at z = %g m%s, far %s all others, which are "
-                "from %g to %g m; the first is at (%g, %g): most likely missing heights (nodata) whose value the file "
-                "does not state; expected their NODATA_value in the header, or no lines for them in an .xyz file",
-                body->name, count, count > 1 ? "are" : "is", least, most > least ? " and more" : "",
-                most < low     ? "below"
-                : least > high ? "above"
-                               : "from",
-                low, high, mesh->vertices[first].x, mesh->vertices[first].y);
-    }
-    sb_free(within);
-    sb_free(all.z);
-    return status;
+    sb_vec3 min = scene->domain.min, max = scene->domain.max;
+    sb_missing found;
+    char text[600];
+    if (scene->dimensions == 2) min.y = max.y = 0;
+    const sb_status status = sb_missing_find(&body->mesh, min, max, &found, error);
+    if (status != SB_OK || found.count == 0) return status;
+    *lowest = found.low;
+    sb_missing_tell(&found, &body->mesh, "domain", text, sizeof text);
+    return sb_model_warn(model, error, "body \"%s\": %s", body->name, text);
 }
 
 /* PLACES_MAX: largest number of places at which ground below the domain's floor is looked for. In spacings: water

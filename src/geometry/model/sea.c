@@ -139,6 +139,8 @@ sb_status sb_model_sea_sides(const sb_scene *scene, const sb_model_space *space,
                        "of the still water");
     sb_sea_source *sea = NULL;
     sb_status status = sb_scene_nested(scene) ? sb_grid_start_fill(scene, &model->grid, error) : SB_OK;
+    for (size_t w = 0; w < model->grid.told.warning_count && status == SB_OK; w++)
+        status = sb_model_warn(model, error, "%s", model->grid.told.warnings[w]);
     if (status == SB_OK) status = sb_sea_create(scene, &model->grid, &sea, error);
     if (status != SB_OK) return status;
     const double highest = sb_sea_greatest_surface(sea);
