@@ -111,6 +111,38 @@ static double wave_at(const sb_scene *scene, double x, double *u)
     return eta;
 }
 
+/* Part of the water's depth by which that of the wave may differ without a warning, as of water.wave. */
+static const double DEPTH_SHARE = 0.05;
+
+/* Warns of a solitary wave whose depth is not that of the still water at its crest: neither the mean one of the wet
+   cells there nor the greatest one, nor one between them. */
+static sb_status warn_depth(const sb_scene *scene, sb_offshore_start *start, sb_error *error)
+{
+    const sb_offshore_settings *o = &scene->offshore;
+    double deepest = 0, sum = 0;
+    size_t cells = 0, wet = 0;
+    if (o->wave.kind != SB_INITIAL_SOLITARY) return SB_OK;
+    for (size_t k = 0; k < start->columns * start->rows; k++) {
+        const double x = o->x_min + ((double)(k % start->columns) + 0.5) * o->cell, still = o->level - start->bed[k];
+        if (fabs(x - o->wave.position) > 1.5 * o->cell) continue;
+        cells++;
+        if (!(still > 0)) continue;
+        wet++;
+        sum += still;
+        deepest = fmax(deepest, still);
+    }
+    if (cells == 0) return SB_OK; /* it begins outside of the grid, which has a warning of its own */
+    if (wet == 0)
+        return sb_offshore_warn(&start->told, error, "offshore.wave: no water is at its crest, x = %g m, at t = 0",
+                                o->wave.position);
+    const double mean = sum / (double)wet, depth = o->wave.depth;
+    if (depth >= (1 - DEPTH_SHARE) * mean && depth <= (1 + DEPTH_SHARE) * deepest) return SB_OK;
+    return sb_offshore_warn(&start->told, error,
+                            "offshore.wave: its depth is %g m, but the still water at its crest, x = %g m, is %.3g m "
+                            "deep in the mean and at most %.3g m: the wave will differ from the one requested",
+                            depth, o->wave.position, mean, deepest);
+}
+
 sb_status sb_offshore_start_water(const sb_scene *scene, sb_offshore_start *start, sb_error *error)
 {
     const sb_offshore_settings *o = &scene->offshore;
@@ -129,7 +161,7 @@ sb_status sb_offshore_start_water(const sb_scene *scene, sb_offshore_start *star
         start->highest = fmax(start->highest, start->bed[k] + start->depth[k]);
         start->fastest = fmax(start->fastest, fabs(u));
     }
-    if (start->wet > 0) return SB_OK;
+    if (start->wet > 0) return warn_depth(scene, start, error);
     return sb_fail(error, SB_BAD_INPUT,
                    "offshore.level: %g m is below the whole bed, expected water somewhere; check the level, and "
                    "datum and positive of the terrain",

@@ -43,7 +43,7 @@ void sb_offshore_start_free(sb_offshore_start *start);
 sb_offshore_options sb_offshore_options_of(const sb_scene *scene, size_t columns, size_t rows);
 
 /* Adds still water and the scene's wave to the bed. depth holds the uplift on entry. Sets wet, deepest, highest and
-   fastest. SB_BAD_INPUT if there is no water. */
+   fastest, and warns in start->told of a wave for another depth. SB_BAD_INPUT if there is no water. */
 sb_status sb_offshore_start_water(const sb_scene *scene, sb_offshore_start *start, sb_error *error);
 
 /* Makes the model; as sb_offshore_create. */

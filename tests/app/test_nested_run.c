@@ -219,6 +219,11 @@ static void another_depth_of_the_grid_is_named(void **state)
     o = RUN(0, "check", "bed.yaml", "--json");
     assert_contains(o.out, "\"name\": \"offshore.terrain[0]\"");
     outcome_free(&o);
+    o = RUN(0, "check", "bed.yaml", "--set",
+            "offshore.wave={kind: solitary, height: 0.1, depth: 0.8, position: -2, theory: serre}");
+    assert_contains(o.out, "warning: offshore.wave: its depth is 0.8 m, but the still water at its crest, x = -2 m, is "
+                           "0.4 m deep in the mean");
+    outcome_free(&o);
     o = RUN(0, "check", "bed.yaml", "--set", "offshore.terrain[0].datum=-100");
     assert_contains(o.out, "warning: sea: at x_min the water of the grid is 100.4 m deep in the mean, and that of the "
                            "particles 0.4 m");

@@ -194,6 +194,38 @@ static void unmarked_missing_heights_are_reported(void **state)
     outcome_free(&o);
 }
 
+/* The sea is 10 m deep at x = 20. */
+static void a_wave_for_another_depth_is_warned_of(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *wave, *expected;
+    } cases[] = {
+        {"{kind: solitary, height: 1, depth: 10, position: 20, theory: serre}", NULL},
+        {"{kind: solitary, height: 1, depth: 100, position: 20, theory: serre}",
+         "offshore.wave: its depth is 100 m, but the still water at its crest, x = 20 m, is 10 m deep in the mean and "
+         "at "
+         "most 10 m: the wave will differ"},
+        {"{kind: solitary, height: 1, depth: 8, position: 20, theory: serre}", "offshore.wave: its depth is 8 m, but"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char change[200];
+        snprintf(change, sizeof change, "offshore.wave=%s", cases[k].wave);
+        outcome o = RUN(0, "check", "basin.yaml", "--set", change);
+        if (cases[k].expected)
+            assert_contains(o.out, cases[k].expected);
+        else
+            assert_null(strstr(o.out, "its depth is"));
+        outcome_free(&o);
+    }
+    write_grid("land.xyz", -10, 90, -10, 50, 1);
+    outcome o =
+        RUN(0, "check", "basin.yaml", "--set", "offshore.terrain=[{file: land.xyz}, {file: hill.xyz, datum: -9}]",
+            "--set", "offshore.wave={kind: solitary, height: 1, depth: 9, position: 20, theory: serre}");
+    assert_contains(o.out, "offshore.wave: no water is at its crest, x = 20 m");
+    outcome_free(&o);
+}
+
 /* A grid without a height at one of its corners, and so at one cell. */
 static void write_pit(void)
 {
@@ -305,10 +337,15 @@ static void tide_and_wave_add(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_run_writes_its_files), cmocka_unit_test(bits_do_not_depend_on_threads),
-        cmocka_unit_test(check_reports),          cmocka_unit_test(unmarked_missing_heights_are_reported),
-        cmocka_unit_test(bad_input_is_one_line),  cmocka_unit_test(earlier_files_are_kept_or_replaced),
-        cmocka_unit_test(waves_run_up_a_beach),   cmocka_unit_test(tide_and_wave_add),
+        cmocka_unit_test(a_run_writes_its_files),
+        cmocka_unit_test(bits_do_not_depend_on_threads),
+        cmocka_unit_test(check_reports),
+        cmocka_unit_test(unmarked_missing_heights_are_reported),
+        cmocka_unit_test(a_wave_for_another_depth_is_warned_of),
+        cmocka_unit_test(bad_input_is_one_line),
+        cmocka_unit_test(earlier_files_are_kept_or_replaced),
+        cmocka_unit_test(waves_run_up_a_beach),
+        cmocka_unit_test(tide_and_wave_add),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
 }
