@@ -23,12 +23,12 @@ static void warn_of_beginning(const sb_scene *scene, const sb_sponge *sponge, sb
     const int axis = sponge->side / 2;
     const bool upper = sponge->side % 2;
     const double side = sb_component(upper ? scene->domain.min : scene->domain.max, axis);
-    const double most = fabs(sponge->end - side);
+    const double most = fabs(sponge->end - side), from = sponge->end + (upper ? -sponge->length : sponge->length);
     if (sponge->length <= most * (1 + 1e-9)) return;
     snprintf(text, sizeof text,
              "sponge \"%s\": it begins at %c = %.4g m, outside of the domain, so that its strength does not grow from "
              "0 there, and the predicted reflection is not that of what is left; expected a length of at most %.4g m",
-             sponge->name, "xy"[axis], sponge -> end + (upper ? -1 : 1) * sponge -> length, most);
+             sponge->name, "xy"[axis], from, most);
     visit(context, text);
 }
 
