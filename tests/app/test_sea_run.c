@@ -210,6 +210,8 @@ static void doubtful_input_is_named(void **state)
         {"sea: {source: offshore}\noffshore: {cell: 0.05, min: [-1], max: [5], level: 0.5}\n",
          "sea.start or offshore.level"},
         {"sea: {source: theory, wave: solitary, height: 0.08, depth: 0.8}\n", "expected the depth at the side"},
+        {"sea: {source: theory, wave: solitary, height: 0.08, depth: 0.4, direction: 180, sides: {x_max: still}}\n",
+         "sea.direction: no wave runs into the domain"},
         {"sea: {source: table, file: table.csv}\n", "such as {x_max: still}"},
         {"sea: {source: offshore, start: -1.6}\noffshore: {cell: 0.05, min: [-4], max: [5], wave: {kind: solitary, "
          "height: 0.1, depth: 0.4, position: -2}}\n",

@@ -192,6 +192,32 @@ static sb_status warn_depth(const sb_scene *scene, sb_model *model, sb_error *er
                          scene->given.depth, sb_side_names[side], depth);
 }
 
+/* The largest part of a wave's direction, degrees from x, that is into the domain at a given side. */
+static double inward_part(const sb_scene *scene, double direction)
+{
+    const double along[] = {cos(direction * M_PI / 180), sin(direction * M_PI / 180)};
+    double most = -1;
+    for (int side = 0; side < 4; side++)
+        if (sb_scene_given_side(scene, side)) most = fmax(most, (side % 2 ? -1 : 1) * along[side / 2]);
+    return most;
+}
+
+/* Warns of waves all of which run out of the sides at which they are given. */
+static sb_status warn_direction(const sb_scene *scene, sb_model *model, sb_error *error)
+{
+    static const double LEAST = 0.01; /* along the side */
+    const sb_given_sea *given = &scene->given;
+    const bool sum = given->wave == SB_GIVEN_COMPONENTS;
+    double most = -1;
+    for (size_t c = 0; c < (sum ? given->component_count : 1); c++)
+        most = fmax(most, inward_part(scene, sum ? given->components[c].direction : given->direction));
+    if (most > LEAST) return SB_OK;
+    return sb_model_warn(model, error,
+                         "sea%s.direction: no wave runs into the domain at a side at which it is given: expected the "
+                         "direction towards which it travels, in degrees, 0 along x and 90 along y",
+                         sum ? ".components" : "");
+}
+
 sb_status sb_model_sea_warn(const sb_scene *scene, sb_sea_source *sea, sb_model *model, sb_error *error)
 {
     const bool still = scene->wave.kind == SB_INITIAL_NONE && scene->box_count == 0;
@@ -211,7 +237,8 @@ sb_status sb_model_sea_warn(const sb_scene *scene, sb_sea_source *sea, sb_model 
         return status == SB_OK ? warn_dry(scene, sea, model, error) : status;
     }
     case SB_GIVEN_THEORY: {
-        const sb_status status = warn_depth(scene, model, error);
+        sb_status status = warn_depth(scene, model, error);
+        if (status == SB_OK) status = warn_direction(scene, model, error);
         return status == SB_OK ? warn_dry(scene, sea, model, error) : status;
     }
     }
