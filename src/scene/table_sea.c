@@ -221,6 +221,10 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     sb_given_sea *given = item;
     const sb_scene *scene = reader->scene;
     if (given->source == SB_GIVEN_NONE) return SB_OK;
+    if (scene->offshore.present && given->source != SB_GIVEN_OFFSHORE)
+        return sb_reader_fail(reader, map, "source",
+                              "a scene with offshore has no particles to which this water could be given, expected no "
+                              "block sea, or source: offshore");
     if (!sb_yaml_child(map, "level")) {
         if (!scene->sea.present)
             return sb_reader_fail(reader, map, "level", "missing, expected metres, or water.level");
