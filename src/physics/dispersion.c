@@ -31,3 +31,15 @@ double sb_piston_height_over_stroke(double kd)
     const double q = exp(-2 * kd), rest = -expm1(-2 * kd); /* sinh kd = e^kd (1 - q)/2, sinh 2kd = e^2kd (1 - q^2)/2 */
     return 2 * rest * rest / (4 * kd * q + rest * (1 + q));
 }
+
+double sb_evanescent_root(int j, double y)
+{
+    enum { NEWTON = 60 };
+    double x = j * M_PI - atan2(y, (j - 0.5) * M_PI);
+    for (int i = 0; i < NEWTON; i++) {
+        const double step = (x + atan(y / x) - j * M_PI) / (1 - y / (x * x + y * y));
+        x -= step;
+        if (fabs(step) < 1e-15 * x) break;
+    }
+    return x;
+}

@@ -20,4 +20,8 @@ double sb_sinh_over_sinh(double k, double z, double depth);
 /* Returns H/S0 of a piston with the full stroke S0 in water of k d: 4 sinh^2 kd/(2 kd + sinh 2 kd) [Biesel 1951]. */
 double sb_piston_height_over_stroke(double kd);
 
+/* Wave number times depth of the wave j >= 1 that stays where it is made: the root of x tan x = -y in ((j - 1/2) pi, j
+   pi), with y = omega^2 depth/gravity, by Newton's method on atan, which is almost linear there. */
+double sb_evanescent_root(int j, double y);
+
 #endif

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-enum { MODES = 200, NEWTON = 60 };
+enum { MODES = 200 };
 
 double sb_paddle_gain(sb_paddle_motion motion, double number, double depth)
 {
@@ -14,35 +14,16 @@ double sb_paddle_gain(sb_paddle_motion motion, double number, double depth)
     return piston * (1 - tanh(0.5 * kd) / kd);
 }
 
-/* Root of x tan x = -y in ((j - 1/2) pi, j pi), j >= 1, by Newton's method on atan, which is almost linear there. */
-static double evanescent_root(int j, double y)
-{
-    double x = j * M_PI - atan2(y, (j - 0.5) * M_PI);
-    for (int i = 0; i < NEWTON; i++) {
-        const double step = (x + atan(y / x) - j * M_PI) / (1 - y / (x * x + y * y));
-        x -= step;
-        if (fabs(step) < 1e-15 * x) break;
-    }
-    return x;
-}
-
 double sb_paddle_evanescent(sb_paddle_motion motion, double omega, double depth, double gravity, double distance)
 {
     const double y = omega * omega * depth / gravity;
     double sum = 0;
     for (int j = 1; j <= MODES; j++) {
-        const double x = evanescent_root(j, y), sine = sin(x);
+        const double x = sb_evanescent_root(j, y), sine = sin(x);
         const double shape = motion == SB_PADDLE_PISTON ? sine : sine - (1 - cos(x)) / x;
         sum += 4 * shape * sine / (2 * x + sin(2 * x)) * exp(-x * distance / depth);
     }
     return sum;
-}
-
-/* H^2/(32 d) (3 cosh kd/sinh^3 kd - 2/W) */
-double sb_paddle_second(double height, double number, double depth)
-{
-    const double kd = number * depth, t = tanh(kd), s = 1 / sinh(kd);
-    return height * height / (32 * depth) * (3 * s * s / t - 2 / sb_piston_height_over_stroke(kd));
 }
 
 double complex sb_paddle_absorbing(sb_paddle_motion motion, double omega, double depth, double gravity, double distance)

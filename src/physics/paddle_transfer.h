@@ -18,10 +18,6 @@ double sb_paddle_gain(sb_paddle_motion motion, double number, double depth);
    which they are in phase. */
 double sb_paddle_evanescent(sb_paddle_motion motion, double omega, double depth, double gravity, double distance);
 
-/* Amplitude in m of the paddle's motion at twice the frequency, for which second-order waves of a height have no free
-   wave of that frequency: e in e sin(2 omega t) beside S/2 sin(omega t). Piston only [Madsen 1971]. */
-double sb_paddle_second(double height, double number, double depth);
-
 /* The velocity of the paddle over the surface at a distance from it, for which no wave is sent back: of surface less
    that of the waves to be made, with time as exp(i omega t). */
 double complex sb_paddle_absorbing(sb_paddle_motion motion, double omega, double depth, double gravity,

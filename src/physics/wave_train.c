@@ -51,7 +51,7 @@ static double full_displacement(const sb_wave_train *train, double t)
     double sum = 0;
     if (train->is_cnoidal) return sb_cnoidal_piston(&train->cnoidal, t, NULL);
     for (size_t i = 0; i < train->count; i++)
-        sum += train->part[i].stroke * sin(train->part[i].omega * t + train->part[i].phase);
+        sum += train->part[i].stroke * sin(train->part[i].omega * t + train->part[i].phase + train->part[i].ahead);
     return sum;
 }
 

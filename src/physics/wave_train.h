@@ -9,9 +9,11 @@
 
 #include <stdbool.h>
 
-/* The paddle is at s sin(omega t + phase); the surface at the distance x ahead is a cos(omega t + phase - k x). */
+/* The paddle is at s sin(omega t + phase + ahead); the surface at the distance x ahead is a cos(omega t + phase - k x).
+ */
 typedef struct sb_train_part {
     double omega, phase;      /* 1/s, rad */
+    double ahead;             /* rad: 0 but for a bound part */
     double stroke, amplitude; /* m: s and a */
     double number;            /* 1/m: k */
     double near;              /* surface of the waves that stay near the paddle over its displacement, at the place */

@@ -1,5 +1,6 @@
-/* Regular waves: a paddle by linear theory, a piston by second-order theory [Madsen 1971], and a piston that follows
-   the water of a cnoidal wave [Goring 1978]. */
+/* Regular waves: a paddle by linear theory, a piston by second-order theory [Madsen 1971; Schaeffer 1996], and a piston
+   that follows the water of a cnoidal wave [Goring 1978]. */
+#include "physics/paddle_second.h"
 #include "physics/regular_wave.h"
 #include "physics/wave_train.h"
 
@@ -29,12 +30,17 @@ static sb_status create(const sb_wavemaker_parameters *parameters, void **state,
     if (!train) return sb_fail_memory(error, "a wave maker");
     const double omega = 2 * M_PI / wave.period;
     if (parts > 0) sb_wave_train_set(train, 0, 0.5 * wave.height, omega, 0);
-    if (parts > 1)
+    if (parts > 1) {
+        /* s sin(2 omega t + ahead) = Re(-i s exp(i ahead) exp(2 i omega t)) */
+        const double complex second =
+            CMPLX(0, 1) * sb_paddle_second(wave.height, omega, wave.depth, parameters->gravity);
         train->part[1] = (sb_train_part){.omega = 2 * omega,
-                                         .stroke = sb_paddle_second(wave.height, wave.number, wave.depth),
+                                         .stroke = cabs(second),
+                                         .ahead = carg(second),
                                          .amplitude = wave.second,
                                          .number = 2 * wave.number,
                                          .bound = true};
+    }
     train->is_cnoidal = wave.order == SB_WAVE_CNOIDAL;
     train->cnoidal = wave.cnoidal;
     train->facts = (sb_wave_facts){.theory = theory_names[wave.order],
@@ -59,7 +65,7 @@ static const char *warning(const sb_wavemaker_parameters *parameters)
 const sb_wavemaker sb_wavemaker_regular = {
     .name = "regular",
     .summary = "piston for regular waves: linear, second order, or cnoidal",
-    .reference = "Biesel 1951; Madsen 1971; Goring 1978",
+    .reference = "Biesel 1951; Madsen 1971; Schaeffer 1996; Goring 1978",
     .needs = SB_WM_HEIGHT | SB_WM_DEPTH | SB_WM_PERIOD | SB_WM_THEORY | SB_WM_TRAIN,
     .create = create,
     .warning = warning,
