@@ -148,8 +148,8 @@ const sb_case sb_case_sea_tide = {
     .headline = "level, RMS difference, worst gauge",
     .full = {{.resolution = 0.1, .seeds = 3},
              {.resolution = 0.05},
-             {.resolution = 0.025},
-             {.resolution = 0.0125, .judged = true}},
+             {.resolution = 0.025, .judged = true},
+             {.resolution = 0.0125}},
     .quick = {{.resolution = 0.1, .judged = true, .settings = one_period}},
     .evaluate = evaluate_tide,
     .plot = plot_tide};
