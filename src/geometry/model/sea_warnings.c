@@ -108,23 +108,34 @@ static sb_status warn_first(const sb_scene *scene, const farthest *f, sb_model *
                          fabs(f->height), f->height < 0 ? "below" : "above", level);
 }
 
-/* Whether a source leaves less than a spacing of water at time t on every column that has SB_SEA_DEEP layers at the
-   start; *found: the lowest of them. */
+/* Whether a source leaves less than a spacing of water at time t on a column. */
+static bool is_dry(const sb_model *model, const sb_sea_source *sea, int side, size_t column, double t, farthest *here)
+{
+    const sb_model_sea *ground = &model->sea[side];
+    const double bed = ground->bed[column * ground->across];
+    const sb_vec3 at = sb_model_sea_place(model, side, 0, ((double)column + 0.5) * ground->pitch);
+    sb_sea_point water;
+    sb_sea_at(sea, t, at.x, at.y, bed, bed, &water);
+    *here = (farthest){.height = water.surface, .at = at, .bed = bed};
+    return water.surface - bed < model->spacing;
+}
+
+/* Whether it does so on every column that has SB_SEA_DEEP layers at the start; *found: the lowest column, which is
+   looked at first, and nearly always has water. */
 static bool falls_dry(const sb_model *model, const sb_sea_source *sea, int side, double t, farthest *found)
 {
     const sb_model_sea *ground = &model->sea[side];
+    farthest here;
+    size_t lowest = 0;
+    for (size_t c = 0; c < ground->along; c++)
+        if (ground->bed[c * ground->across] < ground->bed[lowest * ground->across]) lowest = c;
+    if (!is_dry(model, sea, side, lowest, t, found)) return false;
     bool any = false;
     for (size_t c = 0; c < ground->along; c++) {
-        const double bed = ground->bed[c * ground->across];
-        const sb_vec3 at = sb_model_sea_place(model, side, 0, ((double)c + 0.5) * ground->pitch);
-        sb_sea_point first, water;
-        sb_sea_at(sea, 0, at.x, at.y, bed, bed, &first);
-        if (round((first.surface - bed) / model->spacing) < SB_SEA_DEEP) continue;
-        sb_sea_at(sea, t, at.x, at.y, bed, bed, &water);
-        if (water.surface - bed >= model->spacing) return false;
-        if (any && bed >= found->bed) continue;
+        (void)is_dry(model, sea, side, c, 0, &here);
+        if (round((here.height - here.bed) / model->spacing) < SB_SEA_DEEP) continue;
+        if (!is_dry(model, sea, side, c, t, &here)) return false;
         any = true;
-        *found = (farthest){.height = water.surface, .at = at, .bed = bed};
     }
     return any;
 }
@@ -141,8 +152,7 @@ static sb_status warn_dry(const sb_scene *scene, const sb_sea_source *sea, sb_mo
             return sb_model_warn(
                 model, error,
                 "sea: at %.4g s the given water at %s falls to %.4g m at (%g, %g), over ground at %g m, the lowest "
-                "there: "
-                "the strip would be dry, and the run ends there; expected at least one spacing of water, or a "
+                "there: the strip would be dry, and the run ends there; expected at least one spacing of water, or a "
                 "side in deeper water",
                 t, sb_side_names[side], f.height, f.at.x, f.at.y, f.bed);
         }
