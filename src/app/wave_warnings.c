@@ -17,13 +17,6 @@ typedef struct group {
     double ramp;                /* s */
 } group;
 
-/* n C with n = (1 + 2kd/sinh 2kd)/2. */
-static double group_speed(double omega, double depth, double gravity)
-{
-    const double k = sb_wave_number(2 * M_PI / omega, depth, gravity), kd2 = 2 * k * depth;
-    return 0.5 * omega / k * (1 + (kd2 < 700 ? kd2 / sinh(kd2) : 0));
-}
-
 /* Part of the crest that comes in time, with the motion that the paddle has when each wave leaves. */
 static double share_in_time(const group *g, double focus)
 {
@@ -77,7 +70,8 @@ static sb_status visit_group(const sb_wavemaker_use *maker, const sb_paddle *pad
         g.count = paddle->kind->band(paddle->state, band, facts->count);
         for (size_t i = 0; i < g.count; i++) {
             g.amplitude[i] = sqrt(band[i].weight);
-            g.travel[i] = law->distance / group_speed(band[i].omega, law->depth, law->gravity);
+            const double k = sb_wave_number(2 * M_PI / band[i].omega, law->depth, law->gravity);
+            g.travel[i] = law->distance / sb_group_speed(band[i].omega, k, law->depth);
         }
         warn_of_focus(maker, &g, visit, context);
     }

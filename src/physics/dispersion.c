@@ -16,6 +16,12 @@ double sb_wave_number(double period, double depth, double gravity)
     return x / depth;
 }
 
+double sb_group_speed(double omega, double k, double depth)
+{
+    const double twice = 2 * k * depth;
+    return omega / k * 0.5 * (1 + twice / sinh(twice));
+}
+
 double sb_cosh_over_sinh(double k, double z, double depth)
 {
     return (exp(k * (z - depth)) + exp(-k * (z + depth))) / -expm1(-2 * k * depth);

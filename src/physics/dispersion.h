@@ -13,6 +13,9 @@ typedef struct sb_wave_motion {
 /* Returns k in 1/m of omega^2 = g k tanh(k d), to rounding. period, depth, gravity > 0. */
 double sb_wave_number(double period, double depth, double gravity);
 
+/* Returns the speed of the energy of waves of the wave number k, m/s: omega/k (1 + 2kd/sinh 2kd)/2. */
+double sb_group_speed(double omega, double k, double depth);
+
 /* Return cosh(k z)/sinh(k d) and sinh(k z)/sinh(k d), without overflow in deep water. 0 <= z, k d > 0. */
 double sb_cosh_over_sinh(double k, double z, double depth);
 double sb_sinh_over_sinh(double k, double z, double depth);

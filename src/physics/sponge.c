@@ -81,7 +81,6 @@ double sb_sponge_viscous_reflection(sb_sponge_profile profile, double viscosity,
 {
     static const double means[] = {
         [SB_SPONGE_LINEAR] = 1.0 / 2, [SB_SPONGE_QUADRATIC] = 1.0 / 3, [SB_SPONGE_CUBIC] = 1.0 / 4};
-    const double k = sb_wave_number(2 * M_PI / omega, depth, gravity), twice = 2 * k * depth;
-    const double group = omega / k * 0.5 * (1 + twice / sinh(twice));
-    return exp(-2 * viscosity * means[profile] * k * k * 2 * length / group);
+    const double k = sb_wave_number(2 * M_PI / omega, depth, gravity);
+    return exp(-2 * viscosity * means[profile] * k * k * 2 * length / sb_group_speed(omega, k, depth));
 }

@@ -1,4 +1,5 @@
 /* A paddle that makes waves by a theory or absorbs: its flat face must push the water from the bed to the surface. */
+#include "base/turn.h"
 #include "scene/reader.h"
 
 #include <math.h>
@@ -7,22 +8,14 @@
    numbers. */
 static const double OBLIQUE = 0.01;
 
-/* Rotates about x, then y, then z, by degrees, as bodies are. */
-static sb_vec3 rotate(sb_vec3 p, sb_vec3 degrees)
-{
-    const sb_vec3 a = sb_scale(degrees, M_PI / 180);
-    p = sb_vec(p.x, cos(a.x) * p.y - sin(a.x) * p.z, sin(a.x) * p.y + cos(a.x) * p.z);
-    p = sb_vec(cos(a.y) * p.x + sin(a.y) * p.z, p.y, cos(a.y) * p.z - sin(a.y) * p.x);
-    return sb_vec(cos(a.z) * p.x - sin(a.z) * p.y, sin(a.z) * p.x + cos(a.z) * p.y, p.z);
-}
-
 /* Whether a direction is along a normal of the body's flat faces. A mesh may have any, and a cylinder has none. */
 static bool along_face(const sb_body *body, sb_vec3 direction)
 {
     const bool plane = body->shape == SB_SHAPE_PLANE;
     const sb_vec3 normals[] = {plane ? body->normal : sb_vec(1, 0, 0), sb_vec(0, 1, 0), sb_vec(0, 0, 1)};
+    const sb_turn turn = sb_turn_of(body->rotate);
     for (int n = 0; n < (plane ? 1 : 3); n++)
-        if (sb_norm(sb_cross(rotate(normals[n], body->rotate), direction)) < OBLIQUE) return true;
+        if (sb_norm(sb_cross(sb_turned(&turn, normals[n]), direction)) < OBLIQUE) return true;
     return !plane && body->shape != SB_SHAPE_BOX;
 }
 

@@ -36,94 +36,93 @@ static int lines_with(const char *text, const char *first, const char *second)
     return count;
 }
 
+/* Scenes, and two parts of the line about each. */
+static const struct {
+    const char *scene, *first, *second;
+} cases[] = {
+    {TANK "domain: {min: [0, 0], max: [8, 0.8]}\n"
+          "water: {level: 0.5, seed: [1, 0.2], wave: {kind: solitary, height: 0.15, depth: 0.5}}\n",
+     "water.wave: 50 % of the wave's volume", "expected water.wave.position"},
+    {TANK "domain: {min: [0, 0], max: [1.3, 0.8]}\nwater: {level: 0.6, seed: [0.1, 0.2]}\nbodies:\n"
+          "  - {name: facade, shape: box, min: [1, -1, -0.2], max: [1.4, 1, 1]}\n"
+          "  - {name: core, shape: box, min: [1.05, -1, -0.2], max: [1.4, 1, 1]}\n",
+     "bodies \"facade\" and \"core\"", "the sum of their forces is right"},
+    {TANK "domain: {min: [0, -0.5], max: [3, 1]}\nwater: {level: 0, seed: [1.5, -0.2]}\n"
+          "bodies: [{name: bed, shape: plane, role: terrain, center: [1.5, 0, -1], normal: [0, 0, 1], width: 9, "
+          "length: 9}]\n",
+     "body \"bed\": its ground below the water is as low as z = -1 m", "the domain's floor is at -0.5 m"},
+    {TANK "domain: {min: [0, 0], max: [2, 1], sides: {x_max: open}}\n"
+          "water: {boxes: [{min: [0, 0], max: [2, 0.4]}]}\n",
+     "water.boxes[0]: its water stands at the open side x_max", "expected a wall"},
+    {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
+          "bodies: [{name: far, shape: box, min: [90, -1, 0], max: [95, 1, 2]}]\n",
+     "body \"far\" has no surface that water could reach", "5 x 2 x 2 m"},
+    {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
+          "bodies: [{name: far, shape: box, min: [90, -1, 0], max: [95, 1, 2]}, "
+          "{name: away, shape: box, min: [80, -1, 0], max: [85, 1, 2]}]\n",
+     "likewise \"away\"", "5 x 2 x 2 m, from (90, -1, 0)"},
+    {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\nfluid: {surface_tension: 0.0728}\n",
+     "fluid.surface_tension: 0.0728 N/m acts below 0.00272 m", "expected a resolution below 0.00136 m"},
+    {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\nfoam: {enabled: true}\n",
+     "foam.enabled: true, but the run draws no pictures", "expected render.interval or output.particle_interval"},
+    {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\noutput: {plots: false}\n"
+     "domain: {min: [0, 0], max: [4, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
+     "measure:\n  interval: 0.01\n  gauges: [{name: a, x: 1}, {name: b, x: 1.2}, {name: c, x: 1.5}, {name: d, x: "
+     "3}]\n"
+     "  reflections: [{name: r, gauges: [a, b, c, d], period: 4, depth: 0.4, harmonics: 2, bound: true}]\n",
+     "measure.reflections r: at these gauges free waves of the period 2 s", "expected 0.05 or more, by gauges over"},
+    {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\noutput: {plots: false}\n"
+     "domain: {min: [0, 0], max: [4, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
+     "measure:\n  interval: 0.01\n  gauges: [{name: a, x: 1}, {name: b, x: 1.2}, {name: c, x: 1.5}]\n"
+     "  reflections: [{name: r, gauges: [a, b, c], period: 2, depth: 0.4, harmonics: 1, start: 1, window: 4}]\n",
+     "measure.reflections r: its first window ends at 5 s, after the end of the run at 0.02 s",
+     "expected an earlier start, a shorter window or a longer duration"},
+    {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\nmeasure: {interval: 0.01}\n"
+     "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
+     "output: {plots: false, particle_pieces: true}\n",
+     "output.particle_pieces: true, but the run writes no particle files", "expected output.particle_interval above"},
+    {WAVES_BY("kind: components, depth: 0.5, file: list.txt"),
+     "wave maker \"w\": a wave height of 0.04 m is 0.8 times the particle spacing", "expected 5 times or more"},
+    {WAVES_BY("kind: signal, depth: 0.5, file: signal.txt, distance: 1"), "wave maker \"w\": a wave height of 0.028",
+     "expected 5 times or more"},
+    {WAVES_BY("kind: signal, depth: 0.5, file: signal.txt, distance: 3000"),
+     "wave maker \"w\": its distance of 3000 m is outside of the domain, which is 5 m long",
+     "expected a shorter distance or a longer domain"},
+    {WAVES_BY("kind: focused, height: 0.1, depth: 0.5, period: 1.5, distance: 800, focus: 9000"),
+     "wave maker \"w\": its distance of 800 m is outside of the domain", "expected a shorter distance"},
+    {WAVES_BY("kind: focused, height: 0.1, depth: 0.5, period: 1.5, distance: 4, focus: 0.1"),
+     "wave maker \"w\": its focus at 0.1 s is too early", "expected a focus of at least "},
+    {"title: t\ndimensions: 2\nduration: 0.02\noutput: {plots: false}\ndomain: {min: [0, -1], max: [40, 1]}\n"
+     "offshore: {cell: 0.2, level: 0, wave: {kind: solitary, height: 0.1, depth: 1, position: -4}}\n",
+     "offshore.wave.position: the crest at x = -4 m begins outside of the grid", "expected a place from 0 to 40 m"},
+    {FLUME(WAVES, BEACH "length: 5, depth: 5}", ""), "sponge \"beach\": its depth is 5 m", "there is 1 m deep"},
+    {FLUME(WAVES, BEACH "length: 10.9, depth: 1}", ""),
+     "sponge \"beach\": it covers the face of wave maker \"w\" at x = 0 m", "expected a length below 10 m"},
+    {FLUME(WAVES, BEACH "end: 3, length: 5, depth: 1}", ""), "sponge \"beach\": it begins at x = -2 m, outside",
+     "expected a length of at most 4 m"},
+    {FLUME(WAVES, BEACH "length: 5, depth: 1}, {name: more, side: x_max, length: 4, period: 2.3, depth: 1}", ""),
+     "sponges \"beach\" and \"more\" overlap from x = 6 to 10 m", "their strengths add there"},
+    {FLUME(WAVES, "", ", waves: {start: 3}"), "measure.waves.start: 3 s is not before the end of the run at 0.02 s",
+     "expected an earlier start"},
+    {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\noutput: {plots: false}\n"
+     "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
+     "measure: {interval: 0.01, waves: {}}\n",
+     "measure.waves: there are no gauges", "expected measure.gauges"},
+    {FLUME(WAVES, "", ", waves: {period: 0.01}"), "measure.waves.period: the last of the five harmonics of 0.01 s",
+     "expected a period of 0.1 s or more"},
+    {FLUME(WAVES, "", ", planes: [{name: p, from: [5], z_min: 1.2, eurotop: {height: 0.1, start: 7}}]"),
+     "measure.planes[0].eurotop.start: 7 s is not before the end of the run", "expected an earlier start"},
+    {FLUME(WAVES, "", ", reflections: [{name: r, gauges: [a, b, c], period: 2.3, depth: 7}]"),
+     "measure.reflections \"r\": its depth is 7 m", "there is 1 m deep"},
+    {FLUME("kind: regular, theory: linear, height: 0.2, period: 20", "", ""),
+     "wave maker \"w\": its travel of 1.99 m is 0.995 m to each side", "the domain has 0.5 m behind it"},
+    {FLUME("kind: irregular, height: 0.2, period: 1e6", "", ""), "wave maker \"w\": its travel of 1.51e+05 m",
+     "expected lower or shorter waves"},
+};
+
 static void check_and_run_give_the_same_warnings(void **state)
 {
     (void)state;
-    static const struct {
-        const char *scene, *first, *second;
-    } cases[] = {
-        {TANK "domain: {min: [0, 0], max: [8, 0.8]}\n"
-              "water: {level: 0.5, seed: [1, 0.2], wave: {kind: solitary, height: 0.15, depth: 0.5}}\n",
-         "water.wave: 50 % of the wave's volume", "expected water.wave.position"},
-        {TANK "domain: {min: [0, 0], max: [1.3, 0.8]}\nwater: {level: 0.6, seed: [0.1, 0.2]}\nbodies:\n"
-              "  - {name: facade, shape: box, min: [1, -1, -0.2], max: [1.4, 1, 1]}\n"
-              "  - {name: core, shape: box, min: [1.05, -1, -0.2], max: [1.4, 1, 1]}\n",
-         "bodies \"facade\" and \"core\"", "the sum of their forces is right"},
-        {TANK "domain: {min: [0, -0.5], max: [3, 1]}\nwater: {level: 0, seed: [1.5, -0.2]}\n"
-              "bodies: [{name: bed, shape: plane, role: terrain, center: [1.5, 0, -1], normal: [0, 0, 1], width: 9, "
-              "length: 9}]\n",
-         "body \"bed\": its ground below the water is as low as z = -1 m", "the domain's floor is at -0.5 m"},
-        {TANK "domain: {min: [0, 0], max: [2, 1], sides: {x_max: open}}\n"
-              "water: {boxes: [{min: [0, 0], max: [2, 0.4]}]}\n",
-         "water.boxes[0]: its water stands at the open side x_max", "expected a wall"},
-        {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
-              "bodies: [{name: far, shape: box, min: [90, -1, 0], max: [95, 1, 2]}]\n",
-         "body \"far\" has no surface that water could reach", "5 x 2 x 2 m"},
-        {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
-              "bodies: [{name: far, shape: box, min: [90, -1, 0], max: [95, 1, 2]}, "
-              "{name: away, shape: box, min: [80, -1, 0], max: [85, 1, 2]}]\n",
-         "likewise \"away\"", "5 x 2 x 2 m, from (90, -1, 0)"},
-        {TANK
-         "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\nfluid: {surface_tension: 0.0728}\n",
-         "fluid.surface_tension: 0.0728 N/m acts below 0.00272 m", "expected a resolution below 0.00136 m"},
-        {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\nfoam: {enabled: true}\n",
-         "foam.enabled: true, but the run draws no pictures", "expected render.interval or output.particle_interval"},
-        {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\noutput: {plots: false}\n"
-         "domain: {min: [0, 0], max: [4, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
-         "measure:\n  interval: 0.01\n  gauges: [{name: a, x: 1}, {name: b, x: 1.2}, {name: c, x: 1.5}, {name: d, x: "
-         "3}]\n"
-         "  reflections: [{name: r, gauges: [a, b, c, d], period: 4, depth: 0.4, harmonics: 2, bound: true}]\n",
-         "measure.reflections r: at these gauges free waves of the period 2 s",
-         "expected 0.05 or more, by gauges over"},
-        {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\noutput: {plots: false}\n"
-         "domain: {min: [0, 0], max: [4, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
-         "measure:\n  interval: 0.01\n  gauges: [{name: a, x: 1}, {name: b, x: 1.2}, {name: c, x: 1.5}]\n"
-         "  reflections: [{name: r, gauges: [a, b, c], period: 2, depth: 0.4, harmonics: 1, start: 1, window: 4}]\n",
-         "measure.reflections r: its first window ends at 5 s, after the end of the run at 0.02 s",
-         "expected an earlier start, a shorter window or a longer duration"},
-        {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\nmeasure: {interval: 0.01}\n"
-         "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
-         "output: {plots: false, particle_pieces: true}\n",
-         "output.particle_pieces: true, but the run writes no particle files",
-         "expected output.particle_interval above"},
-        {WAVES_BY("kind: components, depth: 0.5, file: list.txt"),
-         "wave maker \"w\": a wave height of 0.04 m is 0.8 times the particle spacing", "expected 5 times or more"},
-        {WAVES_BY("kind: signal, depth: 0.5, file: signal.txt, distance: 1"),
-         "wave maker \"w\": a wave height of 0.028", "expected 5 times or more"},
-        {WAVES_BY("kind: signal, depth: 0.5, file: signal.txt, distance: 3000"),
-         "wave maker \"w\": its distance of 3000 m is outside of the domain, which is 5 m long",
-         "expected a shorter distance or a longer domain"},
-        {WAVES_BY("kind: focused, height: 0.1, depth: 0.5, period: 1.5, distance: 800, focus: 9000"),
-         "wave maker \"w\": its distance of 800 m is outside of the domain", "expected a shorter distance"},
-        {WAVES_BY("kind: focused, height: 0.1, depth: 0.5, period: 1.5, distance: 4, focus: 0.1"),
-         "wave maker \"w\": its focus at 0.1 s is too early", "expected a focus of at least "},
-        {"title: t\ndimensions: 2\nduration: 0.02\noutput: {plots: false}\ndomain: {min: [0, -1], max: [40, 1]}\n"
-         "offshore: {cell: 0.2, level: 0, wave: {kind: solitary, height: 0.1, depth: 1, position: -4}}\n",
-         "offshore.wave.position: the crest at x = -4 m begins outside of the grid", "expected a place from 0 to 40 m"},
-        {FLUME(WAVES, BEACH "length: 5, depth: 5}", ""), "sponge \"beach\": its depth is 5 m", "there is 1 m deep"},
-        {FLUME(WAVES, BEACH "length: 10.9, depth: 1}", ""),
-         "sponge \"beach\": it covers the face of wave maker \"w\" at x = 0 m", "expected a length below 10 m"},
-        {FLUME(WAVES, BEACH "end: 3, length: 5, depth: 1}", ""), "sponge \"beach\": it begins at x = -2 m, outside",
-         "expected a length of at most 4 m"},
-        {FLUME(WAVES, BEACH "length: 5, depth: 1}, {name: more, side: x_max, length: 4, period: 2.3, depth: 1}", ""),
-         "sponges \"beach\" and \"more\" overlap from x = 6 to 10 m", "their strengths add there"},
-        {FLUME(WAVES, "", ", waves: {start: 3}"), "measure.waves.start: 3 s is not before the end of the run at 0.02 s",
-         "expected an earlier start"},
-        {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\noutput: {plots: false}\n"
-         "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
-         "measure: {interval: 0.01, waves: {}}\n",
-         "measure.waves: there are no gauges", "expected measure.gauges"},
-        {FLUME(WAVES, "", ", waves: {period: 0.01}"), "measure.waves.period: the last of the five harmonics of 0.01 s",
-         "expected a period of 0.1 s or more"},
-        {FLUME(WAVES, "", ", planes: [{name: p, from: [5], z_min: 1.2, eurotop: {height: 0.1, start: 7}}]"),
-         "measure.planes[0].eurotop.start: 7 s is not before the end of the run", "expected an earlier start"},
-        {FLUME(WAVES, "", ", reflections: [{name: r, gauges: [a, b, c], period: 2.3, depth: 7}]"),
-         "measure.reflections \"r\": its depth is 7 m", "there is 1 m deep"},
-        {FLUME("kind: regular, theory: linear, height: 0.2, period: 20", "", ""),
-         "wave maker \"w\": its travel of 1.99 m is 0.995 m to each side", "the domain has 0.5 m behind it"},
-        {FLUME("kind: irregular, height: 0.2, period: 1e6", "", ""), "wave maker \"w\": its travel of 1.51e+05 m",
-         "expected lower or shorter waves"},
-    };
     write_text("list.txt", "0.01 1.5 0\n0.01 1.2 0\n");
     write_text("signal.txt", "0 0\n.1 .01\n.2 0\n.3 -.01\n.4 0\n.5 .01\n.6 0\n.7 -.01\n.8 0\n.9 .01\n1 0\n1.1 -.01\n");
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {

@@ -1,5 +1,6 @@
 /* Makes the meshes of a body of the scene: shape, units and axes, transform, names. */
 #include "base/memory.h"
+#include "base/turn.h"
 #include "geometry/grid/terrain.h"
 #include "geometry/mesh/mesh.h"
 
@@ -8,30 +9,6 @@
 
 /* Chord error of round shapes in spacings: small compared with the distance rules of the sampling. */
 static const double chord_error = 0.02;
-
-/* Rotates about x, then y, then z. */
-static sb_vec3 rotate(sb_vec3 p, const double cosine[3], const double sine[3])
-{
-    p = sb_vec(p.x, cosine[0] * p.y - sine[0] * p.z, sine[0] * p.y + cosine[0] * p.z);
-    p = sb_vec(cosine[1] * p.x + sine[1] * p.z, p.y, cosine[1] * p.z - sine[1] * p.x);
-    return sb_vec(cosine[2] * p.x - sine[2] * p.y, sine[2] * p.x + cosine[2] * p.y, p.z);
-}
-
-/* Computes the cosine and sine. They are exact for multiples of 90 degrees, so that the faces of turned boxes stay
-   parallel to the axes. */
-static void turn_of(double degrees, double *cosine, double *sine)
-{
-    double quarters = degrees / 90;
-    if (quarters == floor(quarters)) {
-        static const double cosines[4] = {1, 0, -1, 0}, sines[4] = {0, 1, 0, -1};
-        int i = (int)(quarters - 4 * floor(quarters / 4));
-        *cosine = cosines[i];
-        *sine = sines[i];
-        return;
-    }
-    *cosine = cos(degrees * M_PI / 180);
-    *sine = sin(degrees * M_PI / 180);
-}
 
 /* Returns half a unit in the last place of the largest coordinate in single precision, in metres. Importers store
    coordinates in single precision. */
@@ -67,16 +44,14 @@ static void transform(const sb_body *body, sb_mesh *mesh)
     const bool from_file = body->shape == SB_SHAPE_MESH || body->shape == SB_SHAPE_GRID;
     const double scale = from_file ? body->scale : 1;
     const double raise = body->shape == SB_SHAPE_GRID ? body->datum : 0;
-    const double angles[3] = {body->rotate.x, body->rotate.y, body->rotate.z};
-    double cosine[3], sine[3];
-    for (int axis = 0; axis < 3; ++axis) turn_of(angles[axis], &cosine[axis], &sine[axis]);
+    const sb_turn turn = sb_turn_of(body->rotate);
     for (size_t i = 0; i < mesh->vertex_count + mesh->hole_count; ++i) {
         sb_vec3 *at = i < mesh->vertex_count ? mesh->vertices + i : mesh->holes + (i - mesh->vertex_count);
         sb_vec3 p = sb_scale(*at, scale);
         if (body->shape == SB_SHAPE_MESH && body->up == 'y') p = sb_vec(p.x, -p.z, p.y);
         if (body->shape == SB_SHAPE_GRID && body->positive == SB_POSITIVE_DOWN) p.z = -p.z;
         p.z += raise;
-        *at = sb_add(rotate(p, cosine, sine), body->translate);
+        *at = sb_add(sb_turned(&turn, p), body->translate);
     }
 }
 
@@ -89,16 +64,14 @@ typedef struct box {
 /* Returns the extent in x and y of the box and its margin before the body's rotation, translation and scale. */
 static sb_terrain_area area_of(const sb_body *body, const box *within)
 {
-    const double angles[3] = {body->rotate.x, body->rotate.y, body->rotate.z};
+    const sb_turn turn = sb_turn_of(body->rotate);
     const sb_vec3 axes[2] = {sb_vec(1, 0, 0), sb_vec(0, 1, 0)}, ends[2] = {within->min, within->max};
     sb_terrain_area area = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
-    double cosine[3], sine[3];
-    for (int axis = 0; axis < 3; ++axis) turn_of(angles[axis], &cosine[axis], &sine[axis]);
     for (int corner = 0; corner < 8; ++corner) {
         const sb_vec3 at = sb_vec(ends[corner & 1].x, ends[corner >> 1 & 1].y, ends[corner >> 2].z);
         for (int k = 0; k < 2; ++k) {
             /* The rotation's inverse is its transpose. */
-            const sb_vec3 row = rotate(axes[k], cosine, sine);
+            const sb_vec3 row = sb_turned(&turn, axes[k]);
             const double place = sb_dot(row, sb_sub(at, body->translate));
             area.min[k] = fmin(area.min[k], (place - within->margin) / body->scale);
             area.max[k] = fmax(area.max[k], (place + within->margin) / body->scale);
