@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
 
 /* Times from which on, and up to which, a series must have rows; a rounding error is allowed. */
 static sb_status check_times(const sb_line_point *point, const sb_scene *scene, const char *path, sb_error *error)
@@ -133,4 +134,44 @@ sb_status sb_line_check(const sb_line *series, const sb_scene *scene, const char
     if (status == SB_OK && series->count > 1) status = check_places(series, scene, path, error);
     if (status == SB_OK && series->count > 1) status = check_extent(series, scene, path, error);
     return status == SB_OK ? check_order(series, scene, path, error) : status;
+}
+
+/* The only side at which the line's water is given; -1: there are several, such as two with their corner. */
+static int only_side(const sb_scene *scene)
+{
+    int found = -1;
+    for (int side = 0; side < 4; side++) {
+        if (!sb_scene_given_side(scene, side)) continue;
+        if (found >= 0) return -1;
+        found = side;
+    }
+    return found;
+}
+
+void sb_line_doubt(const sb_line *series, const sb_scene *scene, char *text, size_t size)
+{
+    const int side = only_side(scene), axis = side / 2;
+    if (side < 0 || scene->dimensions == 2 || series->count < 2) return;
+    double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+    for (size_t i = 0; i < series->count; i++) {
+        const double at[2] = {series->points[i].x, series->points[i].y};
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], at[k]);
+            high[k] = fmax(high[k], at[k]);
+        }
+    }
+    const double across = high[axis] - low[axis], along = high[1 - axis] - low[1 - axis];
+    const double middle = 0.5 * (low[axis] + high[axis]);
+    const double centre = 0.5 * (sb_component(scene->domain.min, axis) + sb_component(scene->domain.max, axis));
+    if (across > along)
+        snprintf(
+            text, size,
+            "sea.file: the line of its points runs across the side %s, from %c = %.4g to %.4g m, and each place of "
+            "the side has the water of the nearest point; expected points along the side",
+            sb_side_names[side], "xy"[axis], low[axis], high[axis]);
+    else if (side % 2 ? middle < centre : middle > centre)
+        snprintf(text, size,
+                 "sea.file: the line of its points, at %c = %.4g m, is nearer to the side %s than to %s, where its "
+                 "water is given; expected points along that side; check sea.zero and sea.sides",
+                 "xy"[axis], middle, sb_side_names[side ^ 1], sb_side_names[side]);
 }

@@ -9,4 +9,8 @@
    more than one point, all are beside the domain and in their order. path: of the file. */
 sb_status sb_line_check(const sb_line *series, const sb_scene *scene, const char *path, sb_error *error);
 
+/* Writes a warning if the line runs across the only side at which its water is given, or lies nearer to the opposite
+   one. Otherwise text stays as it is. */
+void sb_line_doubt(const sb_line *series, const sb_scene *scene, char *text, size_t size);
+
 #endif

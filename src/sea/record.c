@@ -168,6 +168,7 @@ static sb_status fill(record *made, const sb_scene *scene, sb_sea_notes *notes, 
     if (status == SB_OK) status = sb_line_check(&made->series, scene, given->file, error);
     if (status == SB_OK) status = find_inward(made, scene, error);
     if (status != SB_OK) return status;
+    sb_line_doubt(&made->series, scene, notes->warning, sizeof notes->warning);
     split_rows(made);
     status = sb_line_finish(&made->series, error);
     snprintf(notes->about, sizeof notes->about, "the incoming part of the record of plane %s, %zu point%s",

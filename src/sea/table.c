@@ -68,6 +68,7 @@ static sb_status fill(table *made, const sb_scene *scene, sb_sea_notes *notes, s
     }
     if (status == SB_OK) status = sb_line_check(&made->series, scene, given->file, error);
     if (status == SB_OK) status = sb_line_finish(&made->series, error);
+    if (status == SB_OK) sb_line_doubt(&made->series, scene, notes->warning, sizeof notes->warning);
     if (status == SB_OK) status = check_datum(made, scene, notes, error);
     const size_t count = made->series.count;
     snprintf(notes->about, sizeof notes->about, "a table of %zu point%s, datum %g m", count,

@@ -14,6 +14,14 @@
          "bodies: [{name: paddle, shape: box, min: [-0.5, 0], max: [0, 0.7]}]\n"                                       \
          "wavemakers: [{name: w, body: paddle, " law "}]\n"
 
+/* A basin with half a metre of water and a side of kind sea: what is given there, and measurements. */
+#define GIVEN(source, measure)                                                                                         \
+    "title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\noutput: {plots: false}\n"                              \
+    "domain: {min: [0, 0], max: [5, 1], sides: {x_min: sea}}\nwater: {level: 0.5, seed: [1, 0.2]}\n"                   \
+    "bodies: [{name: shore, shape: box, min: [4, 0], max: [6, 0.7]}]\nsea: {" source "}\n"                             \
+    "measure: {interval: 0.01" measure "}\n"
+#define SUM(waves) "source: theory, wave: components, depth: 0.5, components: [" waves "]"
+
 /* A flume with a metre of water: a paddle of these keys, sponges and measurements. */
 #define FLUME(paddle, sponges, measure)                                                                                \
     "title: t\ndimensions: 2\nresolution: 0.1\nduration: 0.02\noutput: {plots: false}\n"                               \
@@ -95,6 +103,27 @@ static const struct {
     {"title: t\ndimensions: 2\nduration: 0.02\noutput: {plots: false}\ndomain: {min: [0, -1], max: [40, 1]}\n"
      "offshore: {cell: 0.2, level: 0, wave: {kind: solitary, height: 0.1, depth: 1, position: -4}}\n",
      "offshore.wave.position: the crest at x = -4 m begins outside of the grid", "expected a place from 0 to 40 m"},
+    {"title: t\ndimensions: 2\nduration: 0.02\noutput: {plots: false}\ndomain: {min: [0, -1], max: [4, 1]}\n"
+     "offshore: {cell: 0.2, level: 0, uplift: {file: lift.asc}}\n",
+     "offshore.uplift: it moves the surface by -0.665 m at (2.1, 0), and the water is at most 1 m deep",
+     "expected by how much the ground moves"},
+    {GIVEN("source: theory, wave: regular, depth: 0.5, height: 0.1, period: 2", ""),
+     "sea: a wave height of 0.1 m is 2 times the particle spacing", "expected 5 times or more"},
+    {GIVEN(SUM("{amplitude: 0.03, period: 2}, {amplitude: 0.03, period: 2.2}"), ""),
+     "sea: a wave height of 0.12 m is 2.4 times the particle spacing", "expected 5 times or more"},
+    {GIVEN(SUM("{amplitude: 0.1, period: 2}, {amplitude: 0.01, period: 0.75}, {amplitude: 0.01, period: 0.7}"), ""),
+     "sea.components[2]: its wavelength of 0.765 m is 15 times the particle spacing, and 1 other is also short",
+     "expected 20 times or more"},
+    {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\nmeasure: {interval: 0.01}\noutput: {plots: false}\n"
+     "domain: {min: [0, 0], max: [4, 1], sides: {x_min: periodic, x_max: periodic}}\n"
+     "water: {level: 0.5, seed: [1, 0.2], wave: {kind: components, depth: 0.5, components: [{amplitude: 0.15, "
+     "wavelength: 4}, {amplitude: 0.01, wavelength: 0.8}]}}\n",
+     "water.wave.components[1]: its wavelength of 0.8 m is 16 times the particle spacing: such waves fade soon",
+     "expected 20 times or more"},
+    {GIVEN("source: none", ", planes: [{name: land, from: [4.5], record: true}]"),
+     "measure.planes \"land\": no still water stands along it", "expected a plane in the water, outside of bodies"},
+    {GIVEN("source: none", ", planes: [{name: line, from: [0.1], record: true}]"),
+     "measure.planes \"line\": it lies in the strip of x_min", "expected at least 0.2 m from the side"},
     {FLUME(WAVES, BEACH "length: 5, depth: 5}", ""), "sponge \"beach\": its depth is 5 m", "there is 1 m deep"},
     {FLUME(WAVES, BEACH "length: 10.9, depth: 1}", ""),
      "sponge \"beach\": it covers the face of wave maker \"w\" at x = 0 m", "expected a length below 10 m"},
@@ -123,6 +152,7 @@ static const struct {
 static void check_and_run_give_the_same_warnings(void **state)
 {
     (void)state;
+    write_text("lift.asc", "ncols 2\nnrows 2\nxllcenter 2\nyllcenter -1\ncellsize 2\n-0.7 0\n-0.7 0\n");
     write_text("list.txt", "0.01 1.5 0\n0.01 1.2 0\n");
     write_text("signal.txt", "0 0\n.1 .01\n.2 0\n.3 -.01\n.4 0\n.5 .01\n.6 0\n.7 -.01\n.8 0\n.9 .01\n1 0\n1.1 -.01\n");
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
@@ -138,6 +168,18 @@ static void check_and_run_give_the_same_warnings(void **state)
         assert_contains(log, cases[k].second);
         sb_free(log);
     }
+}
+
+/* Waves that are high and long enough, and a plane where they pass. */
+static void right_seas_give_no_warnings(void **state)
+{
+    (void)state;
+    write_text("given.yaml", GIVEN(SUM("{amplitude: 0.13, period: 2}, {amplitude: 0.01, period: 1}"),
+                                   ", planes: [{name: line, from: [2], record: true}]"));
+    outcome o = RUN(0, "check", "given.yaml");
+    assert_null(strstr(o.out, "warning: sea"));
+    assert_null(strstr(o.out, "warning: measure"));
+    outcome_free(&o);
 }
 
 /* A sponge that is right, and one behind the paddle, which is none of its waves' business. */
@@ -187,6 +229,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(check_and_run_give_the_same_warnings),
+        cmocka_unit_test(right_seas_give_no_warnings),
         cmocka_unit_test(right_sponges_give_no_warnings),
         cmocka_unit_test(gauges_that_stay_empty_are_reported_once),
     };

@@ -54,15 +54,18 @@ static double mass_in(const char *run, const char *key)
     return value;
 }
 
-/* Checks that `check` names the source, and runs. */
+/* Checks that `check` names the source and doubts nothing but the height of waves beside the spacing, and runs. */
 static void check_and_run(const char *text, const char *about, const char *run)
 {
+    static const char low[] = "warning: sea: a wave height of ";
     write_text("sea.yaml", text);
     outcome o = RUN(0, "check", "sea.yaml");
     assert_contains(o.out, about);
     assert_contains(o.out, "sea at x_min");
     assert_contains(o.out, "ground at 0 m");
-    if (strstr(o.out, "warning: sea")) fail_msg("%s", o.out);
+    const char *doubt = strstr(o.out, "warning: sea");
+    if (doubt && strncmp(doubt, low, strlen(low)) == 0) doubt = strstr(doubt + 1, "warning: sea");
+    if (doubt) fail_msg("%s", o.out);
     outcome_free(&o);
     RUN_AND_FORGET(0, "run", "sea.yaml", "--out", run, "--quiet", "--overwrite");
 }

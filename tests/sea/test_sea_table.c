@@ -78,6 +78,36 @@ static void a_place_is_the_zero_of_the_scene(void **state)
     sea_refused(SEA_SPACE, "source: none, zero: [1, 2]", NULL, "does not apply");
 }
 
+/* A line that is not that of the side: across it, or at the opposite side. A line around a corner is right. */
+static void lines_elsewhere_are_doubted(void **state)
+{
+    (void)state;
+#define LINE(x0, y0, x1, y1)                                                                                           \
+    "t,x,y,eta,u,v\n0," x0 "," y0 ",0,0,0\n0," x1 "," y1 ",0,0,0\n20," x0 "," y0 ",0,0,0\n20," x1 "," y1 ",0,0,0\n"
+    static const struct {
+        const char *table, *doubt;
+    } cases[] = {
+        {LINE("0", "0", "0", "6"), NULL},
+        {LINE("-3", "0", "-2", "6"), NULL},
+        {LINE("0", "3", "9", "4"), "runs across the side x_min, from x = 0 to 9 m"},
+        {LINE("10", "0", "10", "6"), "at x = 10 m, is nearer to the side x_max than to x_min"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        sea_case c;
+        sea_make(&c, SEA_SPACE, TABLE, cases[k].table);
+        const char *doubt = sb_sea_warning(c.sea);
+        if (cases[k].doubt ? !doubt || !strstr(doubt, cases[k].doubt) : doubt != NULL) fail_msg("%zu: %s", k, doubt);
+        sea_free(&c);
+    }
+    static const char corner[] =
+        "resolution: 0.1\nduration: 20\ndomain: {min: [0, 0, 0], max: [10, 6, 2], sides: {x_min: sea, y_min: sea}}\n"
+        "water: {level: 1, seed: [1, 1, 0.2]}\n";
+    sea_case c;
+    sea_make(&c, corner, TABLE, LINE("0", "0", "10", "0"));
+    assert_null(sb_sea_warning(c.sea));
+    sea_free(&c);
+}
+
 static void without_a_header_and_with_comments(void **state)
 {
     (void)state;
@@ -270,6 +300,7 @@ int main(void)
         cmocka_unit_test(interpolation_is_monotone_and_of_second_order),
         cmocka_unit_test(several_points_along_a_side),
         cmocka_unit_test(a_place_is_the_zero_of_the_scene),
+        cmocka_unit_test(lines_elsewhere_are_doubted),
         cmocka_unit_test(without_a_header_and_with_comments),
         cmocka_unit_test(ends_of_lines_and_blanks),
         cmocka_unit_test(units_of_a_header),

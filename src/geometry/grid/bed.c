@@ -312,6 +312,31 @@ static sb_status check_reached(const raster *r, sb_error *error)
                    r->min[0], r->min[1], r->max[0], r->max[1], remedy(r));
 }
 
+/* Part of the greatest depth from which on an uplift is probably no uplift, but heights of terrain or of another unit.
+ */
+static const double HIGH_UPLIFT = 0.5;
+
+/* Warns of an uplift that moves the surface too far where there is water. */
+static sb_status warn_high(const raster *r, const sb_scene *scene, sb_offshore_start *start, sb_error *error)
+{
+    const double level = scene->offshore.level;
+    double deepest = 0, most = 0;
+    size_t at = 0;
+    for (size_t k = 0; k < r->columns * r->rows; k++) {
+        if (!(start->bed[k] < level)) continue;
+        deepest = fmax(deepest, level - start->bed[k]);
+        if (fabs(r->height[k]) <= most) continue;
+        most = fabs(r->height[k]);
+        at = k;
+    }
+    if (most <= HIGH_UPLIFT * deepest) return SB_OK;
+    return sb_offshore_warn(&start->told, error,
+                            "offshore.uplift: it moves the surface by %.4g m at (%.9g, %.9g), and the water is at most "
+                            "%.4g m deep; expected by how much the ground moves, not its height; check scale",
+                            r->height[at], r->x + (double)(at % r->columns) * r->cell,
+                            r->y + (double)(at / r->columns) * r->cell, deepest);
+}
+
 sb_status sb_uplift_fill(const sb_scene *scene, sb_offshore_start *start, sb_error *error)
 {
     raster r = raster_of(scene, start->depth);
@@ -325,5 +350,5 @@ sb_status sb_uplift_fill(const sb_scene *scene, sb_offshore_start *start, sb_err
     }
     for (size_t k = 0; k < r.columns * r.rows; k++)
         if (isnan(r.height[k])) r.height[k] = 0;
-    return status;
+    return status == SB_OK ? warn_high(&r, scene, start, error) : status;
 }

@@ -1,12 +1,11 @@
 /* Warns of faults of meshes, of plates and water that are too thin for the spacing, and of time steps that are too
    long. */
 #include "geometry/model/parts.h"
-#include "physics/wavemaker.h"
 
 #include <math.h>
 #include <stdio.h>
 
-enum { DEPTH_MIN = 4, HEIGHT_MIN = 5 };
+enum { DEPTH_MIN = 4 };
 
 /* In h/sqrt(g D). With steps of twice LONGEST_STEP a collapsing column has fallen an eighth less after 0.9 sqrt(D/g)
    than with short steps, and 2 % less with steps of LONGEST_STEP. With three times LONGEST_STEP it has fallen a
@@ -54,15 +53,6 @@ static sb_status check_mesh(const sb_model_body *body, sb_model *model, sb_error
         status = sb_model_warn(model, error, "body \"%s\": %zu faces duplicate other faces", body->name,
                                report.doubled_faces);
     return status;
-}
-
-static sb_status check_height(const sb_model *model, const char *what, const char *name, double height, sb_model *to,
-                              sb_error *error)
-{
-    if (!(height > 0) || height >= HEIGHT_MIN * model->spacing) return SB_OK;
-    return sb_model_warn(
-        to, error, "%s%s%s%s: a wave height of %g m is %.2g times the particle spacing: expected %d times or more",
-        what, name ? " \"" : "", name ? name : "", name ? "\"" : "", height, height / model->spacing, HEIGHT_MIN);
 }
 
 /* DEPTH_SLACK (spacings) and DEPTH_SHARE (of the depth): difference between a law's still-water depth and the actual
@@ -143,16 +133,6 @@ static sb_status check_depths(const sb_scene *scene, const sb_model_space *space
     return status;
 }
 
-/* Height of the waves of a wave maker, m: that of the scene, or the significant one of its file; 0: it makes none. */
-static double height_of(const sb_wavemaker_parameters *law)
-{
-    sb_paddle paddle = {0};
-    if (law->height > 0 || !law->kind->facts || sb_paddle_create(law, &paddle, NULL) != SB_OK) return law->height;
-    const double height = law->kind->facts(paddle.state)->height;
-    sb_paddle_destroy(&paddle);
-    return height;
-}
-
 static sb_status check_water(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     if (model->fluid_count == 0)
@@ -165,11 +145,7 @@ static sb_status check_water(const sb_scene *scene, const sb_model_space *space,
         status = sb_model_warn(
             model, error, "the water is at most %g m deep, %.2g times the particle spacing: expected %d times or more",
             model->still_depth, model->still_depth / model->spacing, DEPTH_MIN);
-    if (status == SB_OK && scene->wave.kind != SB_INITIAL_NONE)
-        status = check_height(model, "initial wave", NULL, scene->wave.height, model, error);
-    for (size_t i = 0; i < scene->wavemaker_count && status == SB_OK; ++i)
-        status = check_height(model, "wave maker", scene->wavemakers[i].name, height_of(&scene->wavemakers[i].law),
-                              model, error);
+    if (status == SB_OK) status = sb_model_warn_wave_sizes(scene, model, error);
     return status == SB_OK ? check_depths(scene, space, model, error) : status;
 }
 
@@ -207,6 +183,7 @@ static sb_status check_alone(const sb_scene *scene, const sb_model_space *space,
     if (status == SB_OK) status = sb_model_warn_open(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_gauges(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_depths(scene, space, model, error);
+    if (status == SB_OK) status = sb_model_warn_records(scene, space, model, error);
     return status;
 }
 

@@ -55,6 +55,13 @@ double sb_model_still_depth(const sb_scene *scene, const sb_model *model, const 
 /* depths.c: warns of sponges and sets of gauges whose depth is not that of the still water there. */
 sb_status sb_model_warn_depths(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
+/* wave_sizes.c: warns of waves at the start, given at a side or made by a paddle that are too low or too short for the
+   spacing. */
+sb_status sb_model_warn_wave_sizes(const sb_scene *scene, sb_model *model, sb_error *error);
+
+/* records.c: warns of recorded planes in which no wave can be recorded. model->sea is made before. */
+sb_status sb_model_warn_records(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+
 /* paddles.c: refuses paddles of wave trains that have their water behind them, and warns of those without room. */
 sb_status sb_model_check_paddles(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
