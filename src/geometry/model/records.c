@@ -35,7 +35,7 @@ static sb_status check_plane(const sb_scene *scene, const sb_model_space *space,
         held += strip >= 0;
         if (strip >= 0) side = strip;
     }
-    if (wet == 0 && scene->box_count == 0)
+    if (wet == 0 && scene->box_count == 0) /* water of a box may fall on a dry place */
         return sb_model_warn(model, error,
                              "measure.planes \"%s\": no still water stands along it, so that its record has no wave "
                              "that comes from the sea; expected a plane in the water, outside of bodies",
