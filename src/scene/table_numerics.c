@@ -48,7 +48,8 @@ static const sb_key keys[] = {
            "correction, which compensates the kernel's missing part at the surface; with `walls: images`."),
     CHOICE(solver, solver_names,
            "Method of the pressure solve. `wcsph`: no solve, but explicit steps of weakly compressible water, for "
-           "comparison; `preset: wen` has values that fit."),
+           "comparison; `preset: wen` has values that fit. Not with sides of kind `sea`, surface tension, foam, settling, "
+           "`density: completed`, `stress_correction` and `hyperviscosity`."),
     CHOICE(tolerance_rule, tolerance_names,
            "`density`: the tolerance is a mean relative excess density. `pressure`: it is a fraction of "
            "the still water's pressure, and the residual that ends a solve follows from the time step."),

@@ -108,7 +108,7 @@ static const sb_key fluid_keys[] = {
      .unit = "N/m", SB_KEY_NOT_NEGATIVE, .fallback = "0",
      .doc = "Surface tension of the fluid against air, 0.0728 for clean water at 20 degrees C; 0 leaves the term out. "
             "It acts on drops and waves of millimetres and limits the time step; `check` prints Bond and Weber "
-            "numbers. Not with periodic sides."},
+            "numbers. Not with periodic sides, `solver: wcsph` or a scene of `offshore` alone."},
 };
 /* clang-format on */
 
@@ -166,7 +166,7 @@ static const sb_key scene_keys[] = {
      .doc = "Laws by which bodies move."},
     {.name = "sponges", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_scene, sponges, sponge_count),
      .table = &sb_sponge_table, WITH_PARTICLES,
-     .doc = "Zones in which waves die out; see [waves](waves.md)."},
+     .doc = "Zones in which waves are damped; see [waves](waves.md)."},
     {.name = "foam", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, foam), .table = &sb_foam_table, WITH_PARTICLES,
      .doc = "Spray, foam and bubbles in pictures and files; see [pictures](pictures.md#foam-and-spray)."},
     {.name = "measure", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_scene, measure),

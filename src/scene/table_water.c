@@ -75,7 +75,9 @@ static const sb_key component_keys[] = {
     {.name = "amplitude", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_component, amplitude), .unit = "m",
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Amplitude, half of the height."},
     {.name = "wavelength", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_component, wavelength), .unit = "m",
-     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Wavelength."},
+     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
+     .doc = "Wavelength, at least four particle spacings, and one that fits a domain which is periodic in x a whole number "
+            "of times."},
     {.name = "phase", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_component, phase), .unit = "deg", SB_KEY_ANY,
      .fallback = "0", .doc = "Phase at `position`; 0: a crest."},
     {.name = "direction", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_initial_component, direction), .min = -1, .max = 1,
@@ -110,8 +112,8 @@ static const sb_key wave_keys[] = {
     {.name = "wavelength", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, wavelength),
      .unit = "m", .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
      .applies = STANDING | REGULAR, .only = "kind standing or regular",
-     .doc = "Wavelength: of a standing wave at least two particle spacings; of regular waves one that fits a domain which "
-            "is periodic in x a whole number of times."},
+     .doc = "Wavelength: of a standing wave at least two particle spacings; of regular waves at least four, and one that "
+            "fits a domain which is periodic in x a whole number of times."},
     {.name = "direction", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_initial_wave, direction), .min = -1,
      .max = 1, .fallback = "1", .applies = SOLITARY | REGULAR, .only = "kind solitary or regular",
      .doc = "Direction of travel: 1 towards +x, -1 towards -x; 0 is an error."},

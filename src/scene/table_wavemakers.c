@@ -29,7 +29,8 @@ static unsigned variant(const void *item, const sb_yaml *map)
 /* clang-format off */
 static const sb_key plate_keys[] = {
     {.name = "width", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_plate_settings, width), .unit = "m", SB_KEY_NOT_NEGATIVE,
-     .fallback = "0", .doc = "About the width of one plate, at least 3 spacings; 0: the paddle is one."},
+     .fallback = "0", .doc = "About the width of one plate, at least 3 spacings; 0: the paddle is one. "
+                              "At most 100 plates, of a box without `rotate` that moves along x or y."},
 };
 /* clang-format on */
 
@@ -50,7 +51,8 @@ static const sb_key keys[] = {
      .flags = SB_KEY_REQUIRED, .doc = "Name of the body that the wave maker moves."},
     {.name = "direction", .type = SB_KEY_VECTOR, SB_KEY_AT(sb_wavemaker_use, direction),
      SB_KEY_ANY, .flags = SB_KEY_UNIT, .fallback = "[1, 0, 0]",
-     .doc = "Direction of the motion, of any length."},
+     .doc = "Direction of the motion, of any length; of wave trains and `absorber` horizontal, from the paddle's flat face "
+            "into the water."},
     {.name = "kind", .type = SB_KEY_LAW, SB_KEY_AT(sb_wavemaker_use, law.kind),
      .flags = SB_KEY_REQUIRED,
      .doc = "Law of the motion; `shorebreak list wavemakers` describes the laws."},
