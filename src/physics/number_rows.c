@@ -8,12 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILE_LIMIT = 64 << 20, NUMBER_LIMIT = 1000000000 };
+enum { FILE_LIMIT = 64 << 20, NUMBER_LIMIT = 1000000000, COLUMNS_MAX = 8 };
 
 typedef struct reading {
     const char *path, *expected;
-    size_t columns, count, capacity; /* count: numbers */
-    double *values;
+    size_t columns;
+    bool begun; /* a row or a line of names was read */
+    size_t rows;
+    sb_number_row *take;
+    void *context;
 } reading;
 
 /* Reads a number at *at and moves *at behind it and behind its separator. False if there is none. */
@@ -28,27 +31,28 @@ static bool read_number(char **at, double *value)
     return stop == end && fabs(*value) <= NUMBER_LIMIT;
 }
 
-static sb_status read_line(reading *r, char *line, size_t number, bool *header, sb_error *error)
+/* Reads one line without its newline. A comment or an empty line is no row. */
+static sb_status read_line(reading *r, char *line, size_t number, sb_error *error)
 {
+    double values[COLUMNS_MAX];
+    size_t found = 0;
     char *at = line + strspn(line, " \t\r");
     at[strcspn(at, "#")] = '\0';
     if (!*at) return SB_OK;
-    if (r->count == 0 && !*header && sb_columns_header(at, strlen(at))) {
-        *header = true;
+    const bool first = !r->begun;
+    r->begun = true;
+    if (first && sb_columns_header(at, strlen(at))) {
         const char *unit = sb_columns_unit(at, strlen(at));
         if (!unit) return SB_OK;
         return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: its header names the unit %s, expected seconds and metres",
                        r->path, number, unit);
     }
-    if (sb_grow((void **)&r->values, &r->capacity, r->count + r->columns, sizeof *r->values) != 0)
-        return sb_fail_memory(error, r->path);
-    size_t found = 0;
-    while (found < r->columns && read_number(&at, &r->values[r->count + found])) found++;
+    while (found < r->columns && read_number(&at, &values[found])) found++;
     if (found < r->columns || *at)
         return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: expected %zu numbers below 1e9, \"%s\"", r->path, number,
                        r->columns, r->expected);
-    r->count += found;
-    return SB_OK;
+    r->rows++;
+    return r->take(r->context, number, values, error);
 }
 
 /* Finds the first byte that no text has, and its line. */
@@ -63,7 +67,7 @@ static bool find_control(const char *text, size_t length, size_t *line, unsigned
     return false;
 }
 
-sb_status sb_number_text_read(const char *path, char **text, sb_error *error)
+static sb_status read_text(const char *path, char **text, sb_error *error)
 {
     char *read = NULL;
     size_t length, line;
@@ -82,28 +86,52 @@ sb_status sb_number_text_read(const char *path, char **text, sb_error *error)
     return status;
 }
 
-sb_status sb_number_rows_read(const char *path, size_t columns, const char *expected, double **values, size_t *rows,
-                              sb_error *error)
+sb_status sb_number_rows_visit(const char *path, size_t columns, size_t least, const char *expected,
+                               sb_number_row *take, void *context, sb_error *error)
 {
     char *text = NULL;
     size_t number = 1;
-    bool header = false;
-    reading r = {.path = path, .expected = expected, .columns = columns};
-    sb_status status = sb_number_text_read(path, &text, error);
+    reading r = {.path = path, .expected = expected, .columns = columns, .take = take, .context = context};
+    sb_status status = read_text(path, &text, error);
     for (char *line = text; status == SB_OK && line; number++) {
         char *newline = strchr(line, '\n');
         if (newline) *newline = '\0';
-        status = read_line(&r, line, number, &header, error);
+        status = read_line(&r, line, number, error);
         line = newline ? newline + 1 : NULL;
     }
-    if (status == SB_OK && r.count == 0)
-        status = sb_fail(error, SB_BAD_INPUT, "%.500s: no rows, expected \"%s\"", path, expected);
     sb_free(text);
-    if (status == SB_OK) {
-        *values = r.values;
-        *rows = r.count / columns;
-    } else {
-        sb_free(r.values);
+    if (status != SB_OK || r.rows >= least) return status;
+    return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: %zu row%s, expected at least %zu: \"%s\"", path, number - 1,
+                   r.rows, r.rows == 1 ? "" : "s", least, expected);
+}
+
+typedef struct list {
+    const char *path;
+    size_t columns, count, capacity; /* count: numbers */
+    double *values;
+} list;
+
+static sb_status add_row(void *context, size_t line, const double *values, sb_error *error)
+{
+    list *l = context;
+    (void)line;
+    if (sb_grow((void **)&l->values, &l->capacity, l->count + l->columns, sizeof *values) != 0)
+        return sb_fail_memory(error, l->path);
+    memcpy(l->values + l->count, values, l->columns * sizeof *values);
+    l->count += l->columns;
+    return SB_OK;
+}
+
+sb_status sb_number_rows_read(const char *path, size_t columns, const char *expected, double **values, size_t *rows,
+                              sb_error *error)
+{
+    list l = {.path = path, .columns = columns};
+    sb_status status = sb_number_rows_visit(path, columns, 1, expected, add_row, &l, error);
+    if (status != SB_OK) {
+        sb_free(l.values);
+        return status;
     }
-    return status;
+    *values = l.values;
+    *rows = l.count / columns;
+    return SB_OK;
 }

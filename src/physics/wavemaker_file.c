@@ -1,14 +1,11 @@
 /* A paddle that follows a table of lines "t x" (s after the start, m), for example one measured in a flume. */
-#include "base/columns.h"
 #include "base/memory.h"
 #include "physics/number_rows.h"
 #include "physics/wavemaker.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-enum { NUMBER_LIMIT = 1000000000 };
+static const double SPEED_LIMIT = 1e9; /* m/s */
 
 typedef struct knot {
     double t, x, slope; /* s, m above the first, m/s */
@@ -17,8 +14,13 @@ typedef struct knot {
 typedef struct table {
     knot *knots;
     size_t count, capacity;
-    bool header; /* a line that names the columns was read */
 } table;
+
+/* A table that is being read. */
+typedef struct reading {
+    const char *path;
+    table *law;
+} reading;
 
 static void destroy(void *state)
 {
@@ -27,72 +29,23 @@ static void destroy(void *state)
     sb_free(law);
 }
 
-/* Reads a decimal number at *at and moves *at behind it and behind its separator: blanks, or one comma or semicolon.
-   Returns -1 if there is no number or it is out of range. */
-static int read_number(char **at, double *value)
+static sb_status add_knot(void *context, size_t line, const double *values, sb_error *error)
 {
-    char *end = *at + strcspn(*at, " \t\r,;");
-    if (end == *at || strspn(*at, "+-.0123456789eE") != (size_t)(end - *at)) return -1;
-    char *stop;
-    *value = strtod(*at, &stop);
-    *at = end + strspn(end, " \t\r");
-    if (**at == ',' || **at == ';') *at += 1 + strspn(*at + 1, " \t\r");
-    return stop == end && fabs(*value) <= NUMBER_LIMIT ? 0 : -1;
-}
-
-/* Reads a line of column names, of which one is allowed, before the first row. */
-static sb_status read_header(table *law, const char *line, const char *path, size_t number, sb_error *error)
-{
-    const char *unit = sb_columns_unit(line, strlen(line));
-    law->header = true;
-    if (!unit) return SB_OK;
-    return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: its header names the unit %s, expected seconds and metres", path,
-                   number, unit);
-}
-
-/* Reads one line without its newline. A comment or an empty line adds no knot. */
-static sb_status read_line(table *law, char *line, const char *path, size_t number, sb_error *error)
-{
-    char *at = line + strspn(line, " \t\r");
-    at[strcspn(at, "#")] = '\0';
-    if (!*at) return SB_OK;
-    if (law->count == 0 && !law->header && sb_columns_header(at, strlen(at)))
-        return read_header(law, at, path, number, error);
-    knot next = {0};
-    if (read_number(&at, &next.t) != 0 || read_number(&at, &next.x) != 0 || *at)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: expected two numbers below 1e9, \"time displacement\"", path,
-                       number);
-    if (law->count == 0 && next.t < 0)
+    const char *path = ((const reading *)context)->path;
+    table *law = ((const reading *)context)->law;
+    const knot next = {.t = values[0], .x = values[1]}, *last = law->count > 0 ? &law->knots[law->count - 1] : NULL;
+    if (!last && next.t < 0)
         return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: time %g s is before the start, expected 0 or later", path,
-                       number, next.t);
-    if (law->count > 0 && !(next.t > law->knots[law->count - 1].t))
+                       line, next.t);
+    if (last && !(next.t > last->t))
         return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: time %g s does not follow %g s, expected increasing times",
-                       path, number, next.t, law->knots[law->count - 1].t);
-    if (law->count > 0) {
-        const knot *last = &law->knots[law->count - 1];
-        double speed = (next.x - last->x) / (next.t - last->t);
-        if (!(fabs(speed) <= NUMBER_LIMIT))
-            return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: a speed of %g m/s, expected below 1e9", path, number,
-                           speed);
-    }
+                       path, line, next.t, last->t);
+    const double speed = last ? (next.x - last->x) / (next.t - last->t) : 0;
+    if (!(fabs(speed) <= SPEED_LIMIT))
+        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: a speed of %g m/s, expected below 1e9", path, line, speed);
     if (sb_grow((void **)&law->knots, &law->capacity, law->count + 1, sizeof next) != 0)
         return sb_fail_memory(error, path);
     law->knots[law->count++] = next;
-    return SB_OK;
-}
-
-static sb_status read_lines(table *law, char *text, const char *path, sb_error *error)
-{
-    size_t number = 1;
-    for (char *line = text; line; number++) {
-        char *newline = strchr(line, '\n');
-        if (newline) *newline = '\0';
-        sb_status status = read_line(law, line, path, number, error);
-        if (status != SB_OK) return status;
-        line = newline ? newline + 1 : NULL;
-    }
-    if (law->count < 2)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: %zu rows, expected at least 2", path, number - 1, law->count);
     return SB_OK;
 }
 
@@ -115,17 +68,11 @@ static void find_slopes(table *law)
 
 static sb_status create(const sb_wavemaker_parameters *parameters, void **state, sb_error *error)
 {
-    const char *path = parameters->file;
-    char *text = NULL;
-    sb_status status = sb_number_text_read(path, &text, error);
-    if (status != SB_OK) return status;
     table *made = sb_alloc(1, sizeof *made);
-    if (!made)
-        status = sb_fail_memory(error, path);
-    else
-        status = read_lines(made, text, path, error);
-    sb_free(text);
-    if (!made || status != SB_OK) {
+    if (!made) return sb_fail_memory(error, parameters->file);
+    reading of = {parameters->file, made};
+    sb_status status = sb_number_rows_visit(of.path, 2, 2, "time displacement", add_knot, &of, error);
+    if (status != SB_OK) {
         destroy(made);
         return status;
     }
