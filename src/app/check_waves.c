@@ -1,6 +1,7 @@
 #include "app/check_waves.h"
 
 #include "physics/dispersion.h"
+#include "physics/paddle_way.h"
 #include "sim/sim.h"
 
 #include <math.h>
@@ -23,16 +24,39 @@ static size_t visit_trains(const sb_scene *scene, visit_train *visit, void *cont
     return count;
 }
 
-/* Reflection by linear theory at the period of the waves, by an absorbing paddle; NaN: it does not absorb. */
-static double paddle_reflection(const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
+/* Of the paddle, m: from the farthest place behind to the farthest ahead. */
+static double travel_of(const sb_scene *scene, const sb_paddle *paddle)
+{
+    const sb_paddle_way way = sb_paddle_way_of(paddle, scene->duration);
+    return way.most - way.least;
+}
+
+/* Reflection of an absorbing paddle by linear theory; NaN: it does not absorb. */
+typedef struct reflection {
+    double peak, all; /* at the period of the waves, at the peak; of all waves, by their energy */
+} reflection;
+
+static reflection paddle_reflection(const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
 {
     sb_paddle own = *paddle;
     sb_absorbing_filter filter;
     const double distance = SB_ABSORB_DISTANCE * scene->resolution;
     if (!maker->law.absorb || sb_paddle_fit_absorption(&maker->law, &own, distance, &filter, NULL) != SB_OK)
-        return (double)NAN;
-    return sb_absorbing_reflection(&filter, maker->law.motion, 2 * M_PI / paddle->kind->facts(paddle->state)->period,
-                                   maker->law.depth, scene->fluid.gravity, distance);
+        return (reflection){(double)NAN, (double)NAN};
+    return (reflection){
+        .peak =
+            sb_absorbing_reflection(&filter, maker->law.motion, 2 * M_PI / paddle->kind->facts(paddle->state)->period,
+                                    maker->law.depth, scene->fluid.gravity, distance),
+        .all = sb_paddle_reflection(&maker->law, &own, &filter, distance),
+    };
+}
+
+/* Height of the waves over the full stroke; that of a cnoidal wave's paddle is its travel. */
+static double height_over_stroke(const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
+{
+    const sb_wave_facts *f = paddle->kind->facts(paddle->state);
+    if (f->height > 0 && f->count == 0) return f->height / travel_of(scene, paddle);
+    return sb_paddle_gain(maker->law.motion, f->number, f->depth);
 }
 
 static void print_parts(const sb_scene *scene, const sb_wavemaker_use *maker, double gain)
@@ -58,12 +82,14 @@ static const char *per_cent(double share, char text[32])
 
 static void print_absorption(const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
 {
-    const double reflection = paddle_reflection(scene, maker, paddle);
-    if (isnan(reflection)) return;
+    const reflection predicted = paddle_reflection(scene, maker, paddle);
+    if (isnan(predicted.peak)) return;
     const sb_wave_facts *facts = paddle->kind->facts(paddle->state);
-    char text[32];
-    printf("    absorbs within %.3g m of its law; predicted reflection at %.4g s %s; forgets levels in %.3g s\n",
-           maker->law.reach, facts->period, per_cent(reflection, text), 1 / facts->slow);
+    char text[32], all[32], more[64] = "";
+    if (!facts->repeats && facts->count > 0)
+        snprintf(more, sizeof more, ", of all its waves %s", per_cent(predicted.all, all));
+    printf("    absorbs within %.3g m of its law; predicted reflection at %.4g s %s%s; forgets levels in %.3g s\n",
+           maker->law.reach, facts->period, per_cent(predicted.peak, text), more, 1 / facts->slow);
 }
 
 static void print_train(void *context, const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
@@ -84,9 +110,9 @@ static void print_train(void *context, const sb_scene *scene, const sb_wavemaker
            "    %.3g particles per height, %.3g per wavelength; travel of the paddle %.3g m\n",
            maker->name, maker->law.kind->name, f->theory, f->height_name, f->height, f->period,
            f->count > 2 ? " at the peak" : "", f->depth, f->length, f->number * f->depth, f->height / f->length,
-           f->ursell, f->height / spacing, f->length / spacing, f->travel);
+           f->ursell, f->height / spacing, f->length / spacing, travel_of(scene, paddle));
     print_absorption(scene, maker, paddle);
-    print_parts(scene, maker, sb_paddle_gain(maker->law.motion, f->number, f->depth));
+    print_parts(scene, maker, height_over_stroke(scene, maker, paddle));
 }
 
 /* Viscosity at the end of a viscous sponge, m^2/s; 0 of a damping one. */
@@ -181,11 +207,15 @@ static void put_train(void *context, const sb_scene *scene, const sb_wavemaker_u
     sb_json_number(json, "ursell", f->ursell);
     sb_json_number(json, "particles_per_height", f->height / scene->resolution);
     sb_json_number(json, "particles_per_wavelength", f->length / scene->resolution);
-    sb_json_number(json, "travel_m", f->travel);
-    if (maker->law.absorb) sb_json_number(json, "predicted_reflection", paddle_reflection(scene, maker, paddle));
+    sb_json_number(json, "travel_m", travel_of(scene, paddle));
+    if (maker->law.absorb) {
+        const reflection predicted = paddle_reflection(scene, maker, paddle);
+        sb_json_number(json, "predicted_reflection", predicted.peak);
+        sb_json_number(json, "predicted_reflection_of_all", predicted.all);
+    }
     sb_plate_row row;
     if (sb_scene_plates(scene, maker, &row) > 0) sb_json_count(json, row.axis == 2 ? "flap_rows" : "plates", row.count);
-    sb_json_number(json, "height_over_stroke", sb_paddle_gain(maker->law.motion, f->number, f->depth));
+    sb_json_number(json, "height_over_stroke", height_over_stroke(scene, maker, paddle));
     sb_json_close(json);
 }
 

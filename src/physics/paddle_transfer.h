@@ -29,7 +29,8 @@ typedef struct sb_band_part {
 } sb_band_part;
 
 /* velocity = -gain pole/(s + pole) of the surface without its slow part, which two filters s/(s + slow) remove. gain
-   and pole are positive, so that the filter takes energy at all frequencies above `slow`. */
+   and pole are positive, so that the filter takes energy at all frequencies above `slow` of waves longer than four
+   times the distance; it sends shorter ones back higher. */
 typedef struct sb_absorbing_filter {
     double gain;    /* 1/s */
     double pole;    /* 1/s; infinity: no lag */

@@ -120,21 +120,6 @@ const sb_wave_facts *sb_wave_train_facts(const void *state)
 /* Angular frequency of the waves over the rate at which an absorbing paddle forgets levels: its time is 6.4 periods. */
 static const double SLOW = 40;
 
-/* The travel within the first LONGEST periods after the ramp. */
-static double travel_of(const sb_wave_train *train)
-{
-    enum { SAMPLES = 40, LONGEST = 100 };
-    const double step = train->facts.period / SAMPLES;
-    const double length = train->is_cnoidal || train->count <= 2 ? train->facts.period : LONGEST * train->facts.period;
-    double least = 0, most = 0;
-    for (double t = 0; t <= fmin(length, train->lasts); t += step) {
-        const double x = full_displacement(train, t) - train->origin;
-        least = fmin(least, x);
-        most = fmax(most, x);
-    }
-    return most - least;
-}
-
 void sb_wave_train_complete(sb_wave_train *train)
 {
     sb_wave_facts *facts = &train->facts;
@@ -147,5 +132,5 @@ void sb_wave_train_complete(sb_wave_train *train)
     facts->length = 2 * M_PI / facts->number;
     facts->ursell = facts->height * facts->length * facts->length / (train->depth * train->depth * train->depth);
     facts->count = train->count;
-    facts->travel = travel_of(train);
+    facts->repeats = train->is_cnoidal || train->count == 1 || (train->count == 2 && train->part[1].bound);
 }

@@ -117,21 +117,45 @@ void sb_paddle_destroy(sb_paddle *paddle)
     *paddle = (sb_paddle){0};
 }
 
+/* The frequencies of a paddle's waves, which the caller frees; NULL without memory. */
+static sb_band_part *band_of(const sb_paddle *paddle, size_t *count)
+{
+    const size_t most = paddle->kind->facts(paddle->state)->count + 1;
+    sb_band_part *band = sb_alloc(most, sizeof *band);
+    *count = band ? paddle->kind->band(paddle->state, band, most) : 0;
+    return band;
+}
+
 sb_status sb_paddle_fit_absorption(const sb_wavemaker_parameters *parameters, sb_paddle *paddle, double distance,
                                    sb_absorbing_filter *filter, sb_error *error)
 {
-    const sb_wave_facts *facts = paddle->kind->facts(paddle->state);
-    const size_t most = facts->count + 1;
-    sb_band_part *band = sb_alloc(most, sizeof *band);
+    size_t count;
+    sb_band_part *band = band_of(paddle, &count);
     if (!band) return sb_fail_memory(error, "an absorbing paddle");
-    const size_t count = paddle->kind->band(paddle->state, band, most);
     paddle->kind->place(paddle->state, distance);
-    *filter = sb_absorbing_filter_of(parameters->motion, band, count, facts->slow, parameters->depth,
-                                     parameters->gravity, distance);
+    *filter = sb_absorbing_filter_of(parameters->motion, band, count, paddle->kind->facts(paddle->state)->slow,
+                                     parameters->depth, parameters->gravity, distance);
     sb_free(band);
     if (filter->gain > 0 && isfinite(filter->gain)) return SB_OK;
     return sb_fail(error, SB_BAD_INPUT,
-                   "absorb: its water is measured %g m ahead of the paddle, more than a quarter of its shortest waves, "
-                   "expected a finer resolution, longer waves, or absorb: false",
+                   "absorb: its water is measured %g m ahead of the paddle, and most of its waves are shorter than "
+                   "four times that, expected a finer resolution, longer waves, or absorb: false",
                    distance);
+}
+
+double sb_paddle_reflection(const sb_wavemaker_parameters *parameters, const sb_paddle *paddle,
+                            const sb_absorbing_filter *filter, double distance)
+{
+    size_t count;
+    double sum = 0, energy = 0;
+    sb_band_part *band = band_of(paddle, &count);
+    if (!band) return (double)NAN;
+    for (size_t i = 0; i < count; i++) {
+        const double share = sb_absorbing_reflection(filter, parameters->motion, band[i].omega, parameters->depth,
+                                                     parameters->gravity, distance);
+        sum += band[i].weight * share * share;
+        energy += band[i].weight;
+    }
+    sb_free(band);
+    return sqrt(sum / energy);
 }

@@ -65,10 +65,10 @@ typedef struct sb_wave_facts {
     const char *height_name;       /* "height", "significant height", ...: static text */
     double height, period, depth;  /* m; s, at the peak of a spectrum; m */
     double length, number, ursell; /* m; 1/m; H L^2/d^3 */
-    double travel;                 /* m, of the paddle */
     double ramp;                   /* s */
     double slow;                   /* 1/s, rate at which an absorbing paddle forgets levels and returns */
     size_t count;                  /* parts of the sum; 0: a cnoidal wave */
+    bool repeats;                  /* after one period */
 } sb_wave_facts;
 
 struct sb_wavemaker {
@@ -123,6 +123,10 @@ double sb_paddle_celerity(const sb_wavemaker_parameters *parameters, const sb_pa
    sets the place of its law. SB_BAD_INPUT if its waves are too short for that distance. */
 sb_status sb_paddle_fit_absorption(const sb_wavemaker_parameters *parameters, sb_paddle *paddle, double distance,
                                    sb_absorbing_filter *filter, sb_error *error);
+/* Reflected over incident amplitude of all waves of a paddle by linear theory: root mean square over their energy. NaN
+   without memory. */
+double sb_paddle_reflection(const sb_wavemaker_parameters *parameters, const sb_paddle *paddle,
+                            const sb_absorbing_filter *filter, double distance);
 /* Distance ahead of an absorbing paddle at which its water is measured, in spacings. */
 #define SB_ABSORB_DISTANCE 3
 

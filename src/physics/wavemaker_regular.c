@@ -49,6 +49,7 @@ static sb_status create(const sb_wavemaker_parameters *parameters, void **state,
                                    .period = wave.period,
                                    .length = wave.length};
     sb_wave_train_complete(train);
+    train->facts.ursell = wave.ursell;
     *state = train;
     return SB_OK;
 }
@@ -57,9 +58,12 @@ static const char *warning(const sb_wavemaker_parameters *parameters)
 {
     sb_regular_wave wave;
     if (find_wave(parameters, &wave, NULL) != SB_OK || wave.order != SB_WAVE_LINEAR) return NULL;
-    return wave.ursell >= SB_URSELL_LIMIT ? "linear theory, but H L^2/d^3 is above 26.3: free waves of twice the "
-                                            "frequency will come with the waves; theory: auto makes cnoidal waves"
-                                          : NULL;
+    if (wave.ursell < SB_URSELL_LIMIT) return NULL;
+    return parameters->motion == SB_PADDLE_FLAP
+               ? "linear theory, but H L^2/d^3 is above 26.3: free waves of twice the frequency will come with the "
+                 "waves; motion: piston makes cnoidal waves"
+               : "linear theory, but H L^2/d^3 is above 26.3: free waves of twice the frequency will come with the "
+                 "waves; theory: auto makes cnoidal waves";
 }
 
 const sb_wavemaker sb_wavemaker_regular = {

@@ -14,4 +14,11 @@ typedef struct sb_domain {
     sb_side_kind side[SB_SIDES]; /* periodic: pairs along x or y; sea: not along z */
 } sb_domain;
 
+/* Place along a horizontal direction at which the domain ends, m. */
+static inline double sb_domain_end(const sb_domain *domain, sb_vec3 direction)
+{
+    return direction.x * (direction.x > 0 ? domain->max.x : domain->min.x) +
+           direction.y * (direction.y > 0 ? domain->max.y : domain->min.y);
+}
+
 #endif

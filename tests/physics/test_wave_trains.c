@@ -131,8 +131,6 @@ static void regular_waves_choose_their_theory(void **state)
     sb_wavemaker_parameters p = parameters_of("regular");
     sb_wave_train *train = train_of(&p);
     assert_string_equal(train->facts.theory, "second-order");
-    assert_near(train->facts.travel, p.height / sb_paddle_gain(SB_PADDLE_PISTON, train->facts.number, p.depth),
-                0.02 * train->facts.travel);
     assert_near(train->ramp, 2 * p.period, 1e-12);
     const double omega = 2 * M_PI / p.period, t = 17.3;
     const double stroke = p.height / sb_paddle_gain(SB_PADDLE_PISTON, train->facts.number, p.depth);

@@ -1,7 +1,7 @@
 /* Every paddle law of the table, Goring's check values, and the motion after the stroke. */
 #include "../check.h"
 #include "base/memory.h"
-#include "physics/wavemaker.h"
+#include "physics/paddle_way.h"
 #include "physics/wavemaker_goring.h"
 
 #include <malloc.h>
@@ -114,7 +114,8 @@ static void every_law_is_continuous(void **state)
         bool sudden = strcmp((*row)->name, "gate") == 0;
         const sb_wave_facts *facts = (*row)->facts ? (*row)->facts(paddle.state) : NULL;
         double step = paddle.duration / 20000, top = 4 * paddle.stroke_end / paddle.duration;
-        if (facts) top = 4 * M_PI * facts->travel / facts->period;
+        const sb_paddle_way way = sb_paddle_way_of(&paddle, 0);
+        if (facts) top = 4 * M_PI * (way.most - way.least) / facts->period;
         double last = 0, last_speed = 0;
         for (int i = -100; i <= 20100; i++) {
             double x = (*row)->displacement(paddle.state, i * step), speed = (x - last) / step;

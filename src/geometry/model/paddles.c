@@ -1,12 +1,15 @@
 /* Paddles of wave trains: their water must be ahead, and the domain and its sponges must leave them room. */
 #include "geometry/model/parts.h"
-#include "physics/wavemaker.h"
+#include "physics/paddle_way.h"
 
 #include <math.h>
 #include <stdio.h>
 
 /* In spacings: distance from a face within which its water is looked for. */
 static const double NEAR = 3;
+
+/* Share of its face that an undivided absorbing paddle needs in water: reflected is (1 - WIDE)/(1 + WIDE), 2.5 %. */
+static const double WIDE = 0.95;
 
 /* Where a paddle begins and ends along its direction, m. */
 typedef struct extent {
@@ -29,30 +32,30 @@ static extent extent_of(const sb_model *model, size_t maker, sb_vec3 along)
 /* ---- water ahead ---- */
 
 typedef struct sides {
-    sb_vec3 along;
+    sb_vec3 along, across;
     extent paddle;
     double near;
     bool ahead, behind;
+    extent water; /* of the water ahead, along `across` */
 } sides;
 
 static void find_sides(void *context, const sb_water_piece *piece)
 {
     sides *s = context;
     for (size_t i = 0; i < piece->count; i++) {
-        const double at = sb_dot(piece->position[i], s->along);
-        s->ahead = s->ahead || (at >= s->paddle.front && at <= s->paddle.front + s->near);
+        const double at = sb_dot(piece->position[i], s->along), place = sb_dot(piece->position[i], s->across);
         s->behind = s->behind || (at <= s->paddle.back && at >= s->paddle.back - s->near);
+        if (!(at >= s->paddle.front && at <= s->paddle.front + s->near)) continue;
+        s->ahead = true;
+        s->water = (extent){fmin(s->water.back, place), fmax(s->water.front, place)};
     }
 }
 
-static sb_status check_facing(const sb_scene *scene, const sb_model_space *space, const sb_model *model, size_t maker,
-                              extent paddle, sb_error *error)
+static sb_status check_facing(const sb_scene *scene, size_t maker, const sides *s, sb_error *error)
 {
-    const sb_vec3 way = scene->wavemakers[maker].direction;
-    sides s = {.along = way, .paddle = paddle, .near = NEAR * model->spacing};
-    const sb_status status = sb_model_visit_water(space, model, find_sides, &s, error);
+    const sb_vec3 way = s->along;
     char towards[80];
-    if (status != SB_OK || s.ahead || !s.behind) return status;
+    if (s->ahead || !s->behind) return SB_OK;
     if (scene->dimensions == 2)
         snprintf(towards, sizeof towards, "[%g, %g]", 0 - way.x, 0 - way.z);
     else
@@ -63,15 +66,25 @@ static sb_status check_facing(const sb_scene *scene, const sb_model_space *space
                    scene->path ? scene->path : "the scene", maker, scene->wavemakers[maker].name, towards);
 }
 
-/* ---- room ---- */
-
-/* Distance along a horizontal direction from a place to the end of the domain, m; the place is along that direction. */
-static double room_along(const sb_domain *domain, sb_vec3 direction, double place)
+/* An undivided paddle absorbs by the mean surface over its face, where it is within the domain. */
+static sb_status check_width(const sb_scene *scene, size_t maker, const sides *s, sb_model *model, sb_error *error)
 {
-    const sb_vec3 far =
-        sb_vec(direction.x > 0 ? domain->max.x : domain->min.x, direction.y > 0 ? domain->max.y : domain->min.y, 0);
-    return sb_dot(far, direction) - place;
+    const sb_wavemaker_use *use = &scene->wavemakers[maker];
+    const extent face = extent_of(model, maker, s->across);
+    const double from = fmax(face.back, -sb_domain_end(&scene->domain, sb_scale(s->across, -1)));
+    const double to = fmin(face.front, sb_domain_end(&scene->domain, s->across));
+    const double water =
+        fmin(to, s->water.front + 0.5 * model->spacing) - fmax(from, s->water.back - 0.5 * model->spacing);
+    if (scene->dimensions == 2 || !use->law.absorb || use->plates.width > 0 || !s->ahead || water > WIDE * (to - from))
+        return SB_OK;
+    return sb_model_warn(
+        model, error,
+        "wave maker \"%s\": it absorbs by the mean surface over its face of %.3g m, and %.3g m of that "
+        "have water ahead: it absorbs less than predicted; expected a body as wide as the water",
+        use->name, to - from, water);
 }
+
+/* ---- room ---- */
 
 /* A body that ends at the domain's side or beyond it may move its face up to there. */
 static sb_status check_travel(const sb_scene *scene, const sb_wavemaker_use *use, extent paddle, sb_model *model,
@@ -80,16 +93,17 @@ static sb_status check_travel(const sb_scene *scene, const sb_wavemaker_use *use
     const sb_vec3 back = sb_scale(use->direction, -1);
     sb_paddle law;
     if (sb_paddle_create(&use->law, &law, NULL) != SB_OK) return SB_OK;
-    const double travel = law.kind->facts(law.state)->travel;
+    const sb_paddle_way way = sb_paddle_way_of(&law, scene->duration);
     sb_paddle_destroy(&law);
-    const double ahead = room_along(&scene->domain, use->direction, paddle.front);
-    double behind = room_along(&scene->domain, back, -paddle.back);
-    if (!(behind > 0)) behind = room_along(&scene->domain, back, -paddle.front);
-    if (0.5 * travel <= fmin(ahead, behind)) return SB_OK;
-    return sb_model_warn(model, error,
-                         "wave maker \"%s\": its travel of %.3g m is %.3g m to each side, and the domain has %.3g m "
-                         "behind it and %.3g m ahead: expected lower or shorter waves, or a longer domain",
-                         use->name, travel, 0.5 * travel, behind, ahead);
+    const double ahead = sb_domain_end(&scene->domain, use->direction) - paddle.front;
+    const double end = sb_domain_end(&scene->domain, back);
+    const double behind = end + paddle.back > 0 ? end + paddle.back : end + paddle.front;
+    if (way.most <= ahead && -way.least <= behind) return SB_OK;
+    return sb_model_warn(
+        model, error,
+        "wave maker \"%s\": it moves %.3g m back and %.3g m ahead, and the domain has %.3g m behind it "
+        "and %.3g m ahead: expected lower or shorter waves, or a longer domain",
+        use->name, 0 - way.least, way.most, behind, ahead);
 }
 
 /* ---- sponges ---- */
@@ -117,7 +131,14 @@ sb_status sb_model_check_paddles(const sb_scene *scene, const sb_model_space *sp
         const sb_wavemaker_use *use = &scene->wavemakers[w];
         const extent paddle = extent_of(model, w, use->direction);
         if (!(use->law.kind->needs & SB_WM_TRAIN) || !isfinite(paddle.front)) continue;
-        status = check_facing(scene, space, model, w, paddle, error);
+        sides s = {.along = use->direction,
+                   .across = sb_vec(-use->direction.y, use->direction.x, 0),
+                   .paddle = paddle,
+                   .near = NEAR * model->spacing,
+                   .water = {(double)INFINITY, -(double)INFINITY}};
+        status = sb_model_visit_water(space, model, find_sides, &s, error);
+        if (status == SB_OK) status = check_facing(scene, w, &s, error);
+        if (status == SB_OK) status = check_width(scene, w, &s, model, error);
         if (status == SB_OK) status = check_travel(scene, use, paddle, model, error);
         if (status == SB_OK) status = check_sponges(scene, use, paddle, model, error);
     }

@@ -1,6 +1,6 @@
 /* Warns of strokes that are faster than waves in their water, and of strokes that run into other bodies. */
 #include "geometry/model/parts.h"
-#include "physics/wavemaker.h"
+#include "physics/paddle_way.h"
 
 #include <math.h>
 
@@ -10,39 +10,10 @@ static const double FAST = 3;
 /* AHEAD: cosine from which a particle's normal points along the motion. A body is reported if one in OF_EACH of
    these particles enters another body; fewer occur at edges. DEEP: depth in spacings that sampling does not explain. */
 static const double AHEAD = 0.9, DEEP = 1;
-enum { OF_EACH = 20, TIMES = 2000, PLACES = 16 };
+enum { OF_EACH = 20, PLACES = 16 };
 
-/* The part of a stroke within the run's duration. */
-typedef struct stroke {
-    double fastest, when; /* m/s, s */
-    double least, most;   /* m, of the displacement */
-} stroke;
-
-static sb_status measure(const sb_scene *scene, const sb_wavemaker_use *maker, stroke *found, sb_error *error)
-{
-    *found = (stroke){0};
-    sb_paddle paddle;
-    sb_status status = sb_paddle_create(&maker->law, &paddle, error);
-    if (status != SB_OK) return status;
-    if (isinf(paddle.start)) paddle.start = 0; /* a command may start it at any time */
-    const double end = paddle.duration + (paddle.after == SB_AFTER_RETURN ? paddle.return_time : 0);
-    const double step = fmin(end, fmax(scene->duration - paddle.start, 0)) / TIMES;
-    double before = 0;
-    for (int k = 1; k <= TIMES && step > 0; k++) {
-        const double now = sb_paddle_displacement(&paddle, paddle.start + k * step);
-        const double speed = fabs(now - before) / step;
-        found->when = speed > found->fastest ? paddle.start + (k - 1) * step : found->when;
-        found->fastest = fmax(found->fastest, speed);
-        found->least = fmin(found->least, now);
-        found->most = fmax(found->most, now);
-        before = now;
-    }
-    sb_paddle_destroy(&paddle);
-    return SB_OK;
-}
-
-static sb_status check_speed(const sb_scene *scene, const sb_wavemaker_use *maker, const stroke *way, sb_model *model,
-                             sb_error *error)
+static sb_status check_speed(const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle_way *way,
+                             sb_model *model, sb_error *error)
 {
     const double waves = sqrt(scene->fluid.gravity * model->still_depth);
     if (!(waves > 0) || way->fastest <= FAST * waves) return SB_OK;
@@ -126,9 +97,12 @@ sb_status sb_model_warn_strokes(const sb_scene *scene, const sb_model_space *spa
     sb_status status = SB_OK;
     for (size_t w = 0; w < scene->wavemaker_count && status == SB_OK; w++) {
         const sb_wavemaker_use *maker = &scene->wavemakers[w];
-        stroke whole;
-        status = measure(scene, maker, &whole, error);
-        if (status == SB_OK) status = check_speed(scene, maker, &whole, model, error);
+        sb_paddle paddle;
+        status = sb_paddle_create(&maker->law, &paddle, error);
+        if (status != SB_OK) return status;
+        const sb_paddle_way whole = sb_paddle_way_until(&paddle, scene->duration);
+        sb_paddle_destroy(&paddle);
+        status = check_speed(scene, maker, &whole, model, error);
         for (size_t b = 0; b < model->body_count && status == SB_OK; b++) {
             const sb_model_body *body = &model->bodies[b];
             if (body->wavemaker != (int)w) continue;
