@@ -10,22 +10,31 @@
 /* Periods over which the drift is a mean. */
 static const double DRIFT_PERIODS = 10;
 
-/* The face from the body's boundary particles, which lie behind it by the wall's offset. */
-static void find_face(const sb_sim *sim, const sb_model_body *body, sb_vec3 direction, sb_absorber *a)
+double sb_paddle_face(const sb_mesh *mesh, sb_vec3 direction)
 {
-    const sb_model *model = sim->model;
-    const double back = sim->scene->numerics.wall_offset * model->spacing;
-    a->side[0] = -direction.y;
-    a->side[1] = direction.x;
-    a->face = a->from[1] = -(double)INFINITY;
-    a->from[0] = (double)INFINITY;
-    for (size_t i = body->begin; i < body->begin + body->count; i++) {
-        const sb_vec3 at = model->wall_position[i];
-        const double along = at.x * a->side[0] + at.y * a->side[1];
-        a->face = fmax(a->face, sb_dot(at, direction) + back);
-        a->from[0] = fmin(a->from[0], along - back);
-        a->from[1] = fmax(a->from[1], along + back);
+    double face = -(double)INFINITY;
+    for (size_t v = 0; v < mesh->vertex_count; v++) face = fmax(face, sb_dot(mesh->vertices[v], direction));
+    return face;
+}
+
+bool sb_absorber_repeats(const sb_scene *scene, const sb_absorber *a)
+{
+    for (int axis = 0; axis < 2; axis++) {
+        const double period = sb_component(scene->domain.max, axis) - sb_component(scene->domain.min, axis);
+        if (fabs(a->side[axis]) > 1 - 1e-9 && sb_scene_repeats(scene, axis))
+            return a->from[1] - a->from[0] > period - 1e-6 * scene->resolution;
     }
+    return false;
+}
+
+/* The extent of the face along itself, as far as it is within the domain. */
+static void find_extent(const sb_domain *domain, const sb_mesh *mesh, sb_vec3 direction, sb_absorber *a)
+{
+    const sb_vec3 side = sb_vec(-direction.y, direction.x, 0), back = sb_scale(side, -1);
+    a->side[0] = side.x;
+    a->side[1] = side.y;
+    a->from[0] = -fmin(sb_paddle_face(mesh, back), sb_domain_end(domain, back));
+    a->from[1] = fmin(sb_paddle_face(mesh, side), sb_domain_end(domain, side));
 }
 
 sb_status sb_absorber_create(sb_sim *sim, size_t body, sb_moving_body *moving, sb_error *error)
@@ -37,10 +46,12 @@ sb_status sb_absorber_create(sb_sim *sim, size_t body, sb_moving_body *moving, s
     a->distance = SB_ABSORB_DISTANCE * sim->model->spacing;
     a->reach = use->law.reach;
     a->period = moving->paddle.kind->facts(moving->paddle.state)->period;
+    const sb_mesh *mesh = &sim->model->bodies[body].mesh;
+    a->face = sb_paddle_face(mesh, use->direction);
     if (sim->model->bodies[body].plates > 0)
-        sb_plate_find(sim, body, use->direction, a);
+        sb_plate_find(sim, body, a);
     else
-        find_face(sim, &sim->model->bodies[body], use->direction, a);
+        find_extent(&sim->scene->domain, mesh, use->direction, a);
     return sb_paddle_fit_absorption(&use->law, &moving->paddle, a->distance, &a->filter, error);
 }
 
@@ -61,7 +72,7 @@ static double column(sb_sim *sim, const sb_moving_body *moving)
     const sb_absorber *a = moving->absorber;
     const sb_vec3 d = moving->direction;
     const double width = sim->model->spacing, from = a->face + moving->displacement + a->distance;
-    const bool flat = sim->constant.dimension == 2;
+    const bool flat = sim->constant.dimension == 2, whole = flat || sb_absorber_repeats(sim->scene, a);
     const size_t n = sim->state.n;
     sb_exact sum = {0};
 #pragma omp parallel
@@ -73,7 +84,7 @@ static double column(sb_sim *sim, const sb_moving_body *moving)
             const double ahead = (at.x * d.x + at.y * d.y - from) / width;
             if (!(fabs(ahead) < SB_ABSORB_DISTANCE)) continue;
             const double along = at.x * a->side[0] + at.y * a->side[1];
-            if (flat || (along >= a->from[0] && along <= a->from[1])) sb_exact_add(&own, sb_column_window(ahead));
+            if (whole || (along >= a->from[0] && along <= a->from[1])) sb_exact_add(&own, sb_column_window(ahead));
         }
         sb_sums_merge(&sum, &own, 1);
     }

@@ -9,7 +9,7 @@
 typedef struct sb_absorber {
     sb_absorbing_filter filter;
     double face, distance;   /* m along the direction: face at rest; place ahead of it where its water is measured */
-    double side[2], from[2]; /* unit vector along the face in x and y; its extent along that, m */
+    double side[2], from[2]; /* unit vector along the face in x and y; its extent along that within the domain, m */
     double reach;            /* m */
     size_t plate, plates;    /* of a paddle that is divided, whose plates follow each other; 0, 0: it is one */
     double period;           /* s, of its waves, at the peak */
@@ -40,8 +40,12 @@ double sb_column_weight(double x);
    [-3, 3] has not: rows that begin half a spacing from the face have 0.4 % less than the same particles in disorder.
    Push-plates still use the latter (docs/decisions/0071). */
 double sb_column_window(double x);
-/* plates.c: sets the place of a push-plate: side and from are those of the whole row. */
-void sb_plate_find(const sb_sim *sim, size_t body, sb_vec3 direction, sb_absorber *a);
+/* Place along a direction of the foremost vertex of a body, m. */
+double sb_paddle_face(const sb_mesh *mesh, sb_vec3 direction);
+/* Whether the face ends at two periodic sides, and so has no ends. */
+bool sb_absorber_repeats(const sb_scene *scene, const sb_absorber *a);
+/* plates.c: sets the extent of a push-plate: side and from are those of the whole row. */
+void sb_plate_find(const sb_sim *sim, size_t body, sb_absorber *a);
 /* Sets the depths beside all plates of a row. moving: its first plate. Returns 0, or -1 without memory. */
 int sb_plates_measure(sb_sim *sim, sb_moving_body *moving);
 

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-void sb_plate_find(const sb_sim *sim, size_t body, sb_vec3 direction, sb_absorber *a)
+void sb_plate_find(const sb_sim *sim, size_t body, sb_absorber *a)
 {
     const sb_model_body *of = &sim->model->bodies[body];
     const sb_wavemaker_use *use = &sim->scene->wavemakers[of->wavemaker];
@@ -17,12 +17,10 @@ void sb_plate_find(const sb_sim *sim, size_t body, sb_vec3 direction, sb_absorbe
     a->side[1] = row.axis == 1;
     a->from[0] = row.from;
     a->from[1] = row.to;
-    a->face = -(double)INFINITY;
-    for (size_t v = 0; v < of->mesh.vertex_count; v++) a->face = fmax(a->face, sb_dot(of->mesh.vertices[v], direction));
 }
 
-/* Weight across a plate at u plates from the row's beginning: a B-spline two plates wide. The weights of all plates,
-   and of their mirror images at the row's ends, sum to 1 at each place. */
+/* Weight across a plate at u plates from the row's beginning: a B-spline two plates wide. At the row's ends it has its
+   mirror image, so that its integral over the row is 1/2 for each plate. */
 static double across(double u, size_t plate, const sb_absorber *a, bool repeats)
 {
     const double n = (double)a->plates, middle = (double)plate + 0.5;
@@ -38,7 +36,8 @@ static void add(const sb_moving_body *moving, sb_vec3 at, double width, bool rep
 {
     const sb_absorber *a = moving->absorber;
     const double along = at.x * a->side[0] + at.y * a->side[1], n = (double)a->plates;
-    const double u = (along - a->from[0]) / (a->from[1] - a->from[0]) * n;
+    double u = (along - a->from[0]) / (a->from[1] - a->from[0]) * n;
+    if (repeats) u -= n * floor(u / n); /* water may have passed a periodic side within the step */
     if (!(u >= 0 && u <= n)) return;
     const long middle = (long)fmin(floor(u), n - 1), count = (long)a->plates;
     for (long k = middle - 1; k <= middle + 1; k++) {
@@ -63,7 +62,7 @@ int sb_plates_measure(sb_sim *sim, sb_moving_body *moving)
     const sb_absorber *a = moving->absorber;
     const size_t count = a->plates, n = sim->state.n;
     const double width = 0.5 * a->distance, pitch = (a->from[1] - a->from[0]) / (double)count;
-    const bool repeats = sb_scene_repeats(sim->scene, a->side[0] > 0 ? 0 : 1) && count > 2;
+    const bool repeats = sb_absorber_repeats(sim->scene, a) && count > 2;
     sb_exact *sums = sb_alloc(count, sizeof *sums);
     bool enough = sums != NULL;
 #pragma omp parallel reduction(&& : enough)

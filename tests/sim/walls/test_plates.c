@@ -18,10 +18,13 @@ static const char text[] = "resolution: 0.1\nduration: 30\n"
                            "    - {min: [0, 0, 0], max: [0.8, 0.8, 1.2], level: 0.63}\n"
                            "    - {min: [0, 0.8, 0], max: [0.8, 1.6, 1.2], level: 0.57}\n"
                            "bodies:\n"
-                           "  - {name: paddle, shape: box, min: [-0.5, 0, 0], max: [0, 1.6, 1.2]}\n"
+                           "  - {name: paddle, shape: box, %s}\n"
                            "wavemakers:\n"
                            "  - {name: taker, body: paddle, kind: absorber, depth: 0.6, period: 1.5%s}\n"
                            "numerics: {settle_steps: 60, walls: %s}\n";
+
+static const char whole_box[] = "min: [-0.5, 0, 0], max: [0, 1.6, 1.2]";
+static const char *box = whole_box;
 
 typedef struct basin {
     sb_scene scene;
@@ -34,7 +37,7 @@ static sb_status read_scene(const char *sides, const char *plates, const char *w
     const char *path = SB_BINARY_DIR "/plates.yaml";
     FILE *file = fopen(path, "w");
     assert_non_null(file);
-    fprintf(file, text, sides, plates, walls);
+    fprintf(file, text, sides, box, plates, walls);
     assert_int_equal(fclose(file), 0);
     return sb_scene_read(path, NULL, NULL, 0, scene, error);
 }
@@ -146,6 +149,72 @@ static void plates_are_one_body(void **state)
     }
 }
 
+/* A paddle that is one reads the depth of its water: also if its box is wider than the basin, thinner than a spacing,
+   or ends at periodic sides. */
+static void a_paddle_reads_its_depth(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *sides, *box;
+    } cases[] = {
+        {"", "min: [-0.5, 0, 0], max: [0, 1.6, 1.2]"},
+        {"", "min: [-0.5, -1, 0], max: [0, 2.4, 1.2]"},
+        {"", "min: [-0.06, -0.3, 0], max: [0, 1.6, 1.2]"},
+        {", sides: {y_min: periodic, y_max: periodic}", "min: [-0.5, 0, 0], max: [0, 1.6, 1.2]"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        basin b;
+        box = cases[k].box;
+        make(&b, cases[k].sides, "", "images");
+        assert_int_equal(tank_steps(b.sim, 1), 0);
+        const sb_absorber *a = b.sim->walls.moving[0].absorber;
+        printf("face at %.4g m, from %.4g to %.4g m: depth %.4g m\n", a->face, a->from[0], a->from[1], a->depth);
+        assert_near(a->face, 0, 1e-6);
+        assert_near(a->from[1] - a->from[0], 1.6, 1e-6);
+        assert_near(a->depth, 0.6, 0.006);
+        free_basin(&b);
+    }
+    box = whole_box;
+}
+
+/* A row that does not end at the periodic sides has ends: the first and the last plate are no neighbours. */
+static void a_short_row_does_not_repeat(void **state)
+{
+    (void)state;
+    const char *const periodic = ", sides: {y_min: periodic, y_max: periodic}";
+    basin b;
+    make(&b, periodic, plates_of[1], "images");
+    assert_true(sb_absorber_repeats(&b.scene, b.sim->walls.moving[0].absorber));
+    free_basin(&b);
+    box = "min: [-0.5, 0.2, 0], max: [0, 1.4, 1.2]";
+    make(&b, periodic, plates_of[1], "images");
+    assert_false(sb_absorber_repeats(&b.scene, b.sim->walls.moving[0].absorber));
+    free_basin(&b);
+    box = whole_box;
+}
+
+/* No plate is narrower than three spacings, though their number is a whole one. */
+static void plates_are_three_spacings_wide(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *box;
+        size_t count;
+    } cases[] = {{"min: [-0.5, 0, 0], max: [0, 1.1, 1.2]", 3},
+                 {"min: [-0.5, 0, 0], max: [0, 0.46, 1.2]", 1},
+                 {"min: [-0.5, 0, 0], max: [0, 1.6, 1.2]", 5}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        sb_scene scene;
+        sb_plate_row row;
+        sb_error error = {0};
+        box = cases[k].box;
+        if (read_scene("", ", plates: {width: 0.3}", "images", &scene, &error) != SB_OK) fail_msg("%s", error.text);
+        assert_int_equal(sb_scene_plates(&scene, &scene.wavemakers[0], &row), cases[k].count);
+        sb_scene_free(&scene);
+    }
+    box = whole_box;
+}
+
 static uint64_t run(basin *b, int threads, int steps)
 {
     omp_set_num_threads(threads);
@@ -196,9 +265,9 @@ static void unfit_plates_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plates_take_waves_across),
-        cmocka_unit_test(plates_are_one_body),
-        cmocka_unit_test(state_is_saved_and_independent_of_threads),
+        cmocka_unit_test(plates_take_waves_across),       cmocka_unit_test(plates_are_one_body),
+        cmocka_unit_test(a_paddle_reads_its_depth),       cmocka_unit_test(a_short_row_does_not_repeat),
+        cmocka_unit_test(plates_are_three_spacings_wide), cmocka_unit_test(state_is_saved_and_independent_of_threads),
         cmocka_unit_test(unfit_plates_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
