@@ -2,16 +2,18 @@
    per period. */
 #include "app/check_measures.h"
 
+#include "output/wave_table.h"
+
 #include <stdio.h>
 
-/* Harmonics of measure.waves, and rows that the shortest of their periods needs. */
-enum { HARMONICS = 5, ROWS = 2 };
+/* Rows that the shortest period of the harmonics of measure.waves needs. */
+enum { ROWS = 2 };
 
 static void warn_of_waves(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
     char text[400];
     const sb_wave_settings *waves = &scene->measure.waves;
-    const double least = HARMONICS * ROWS * scene->measure.interval;
+    const double least = SB_WAVE_HARMONICS * ROWS * scene->measure.interval;
     if (!waves->present) return;
     if (scene->measure.gauge_count == 0)
         visit(context, "measure.waves: there are no gauges, so that waves.csv has no row; expected measure.gauges, or "
@@ -29,7 +31,7 @@ static void warn_of_waves(const sb_scene *scene, sb_warning_visit *visit, void *
                  "measure.waves.period: the last of the five harmonics of %g s has less than two rows of "
                  "measure.interval %g s: it is not measured; expected a period of %.3g s or more, or an interval of "
                  "%.3g s or less",
-                 waves->period, scene->measure.interval, least, waves->period / (HARMONICS * ROWS));
+                 waves->period, scene->measure.interval, least, waves->period / (SB_WAVE_HARMONICS * ROWS));
         visit(context, text);
     }
 }

@@ -3,6 +3,9 @@
 #include <math.h>
 #include <stdio.h>
 
+/* Spacing over the capillary length up to which surface tension is resolved. */
+static const double RESOLVED = 0.5;
+
 /* Bond numbers rho g L^2/sigma compare weight with surface tension, the Weber number rho U^2 L/sigma inertia. */
 typedef struct numbers {
     double length;         /* m, capillary length sqrt(sigma/(rho g)) */
@@ -15,8 +18,7 @@ static numbers numbers_of(const sb_scene *scene, const sb_model *model)
     const double sigma = scene->fluid.surface_tension, rho = scene->fluid.density, dr = scene->resolution;
     const double weight = rho * scene->fluid.gravity;
     /* Falling or surging water has a speed of about 2 sqrt(gD). */
-    double speed = 2 * sb_model_wave_speed(scene, model);
-    for (size_t i = 0; i < model->fluid_count; i++) speed = fmax(speed, sb_norm(model->fluid_velocity[i]));
+    const double speed = fmax(2 * sb_model_wave_speed(scene, model), sb_model_start_speed(model));
     return (numbers){
         .length = sqrt(sigma / weight),
         .spacing = weight * dr * dr / sigma,
@@ -53,12 +55,12 @@ void sb_check_tension_json(const sb_scene *scene, const sb_model *model, sb_json
 void sb_tension_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
     const double sigma = scene->fluid.surface_tension, weight = scene->fluid.density * scene->fluid.gravity;
-    if (!(sigma > 0) || weight * scene->resolution * scene->resolution <= sigma) return;
+    const double length = sqrt(sigma / weight), most = RESOLVED * length;
+    if (!(sigma > 0) || scene->resolution <= most) return;
     char text[320];
-    snprintf(
-        text, sizeof text,
-        "fluid.surface_tension: %g N/m acts below %.3g m, which the resolution of %g m does not resolve: it has no "
-        "effect but shorter time steps; expected a resolution below %.3g m, or surface_tension: 0",
-        sigma, sqrt(sigma / weight), scene->resolution, 0.5 * sqrt(sigma / weight));
+    snprintf(text, sizeof text,
+             "fluid.surface_tension: %g N/m acts below %.3g m, which the resolution of %g m does not resolve: it has "
+             "little effect but shorter time steps; expected a resolution below %.3g m, or surface_tension: 0",
+             sigma, length, scene->resolution, most);
     visit(context, text);
 }

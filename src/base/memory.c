@@ -49,6 +49,16 @@ void sb_free(void *pointer)
     free(pointer);
 }
 
+int sb_lengthen(void **array, size_t count, size_t capacity, size_t size)
+{
+    void *longer = sb_alloc_untouched(capacity, size);
+    if (!longer) return -1;
+    if (*array) memcpy(longer, *array, count * size);
+    sb_free(*array);
+    *array = longer;
+    return 0;
+}
+
 int sb_grow(void **array, size_t *capacity, size_t needed, size_t size)
 {
     if (needed <= *capacity) return 0;
@@ -57,11 +67,7 @@ int sb_grow(void **array, size_t *capacity, size_t needed, size_t size)
         if (wanted > SIZE_MAX / 2) return -1;
         wanted *= 2;
     }
-    void *grown = sb_alloc_untouched(wanted, size);
-    if (!grown) return -1;
-    if (*array) memcpy(grown, *array, *capacity * size);
-    sb_free(*array);
-    *array = grown;
+    if (sb_lengthen(array, *capacity, wanted, size) != 0) return -1;
     *capacity = wanted;
     return 0;
 }

@@ -23,6 +23,10 @@ void sb_free(void *pointer);
    kept. Returns 0, or -1 if memory runs out; the array is then unchanged. */
 int sb_grow(void **array, size_t *capacity, size_t needed, size_t size);
 
+/* Moves the first `count` elements of `size` bytes of *array into one of `capacity` elements. Returns 0, or -1 if
+   memory runs out; the array is then unchanged. */
+int sb_lengthen(void **array, size_t count, size_t capacity, size_t size);
+
 /* Returns a copy of text; NULL if memory runs out or text is NULL. */
 char *sb_strdup(const char *text);
 

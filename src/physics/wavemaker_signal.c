@@ -4,6 +4,7 @@
 #include "physics/number_rows.h"
 #include "physics/wave_train.h"
 
+#include <complex.h>
 #include <math.h>
 
 /* The waves of a train together, by the rule of irregular waves. */
@@ -65,7 +66,8 @@ static sb_status create_components(const sb_wavemaker_parameters *p, void **stat
 
 /* Rows "t eta" at equal steps. */
 typedef struct series {
-    double *values; /* 2 per row */
+    double *values;       /* 2 per row */
+    double complex *turn; /* exp(-2 pi i k/rows) for row k */
     size_t rows;
     double step; /* s */
 } series;
@@ -90,7 +92,8 @@ static sb_status check_times(const char *path, series *s, sb_error *error)
     return SB_OK;
 }
 
-static sb_status check_series(const char *path, series *s, sb_error *error)
+/* Checks the rows and prepares their transform. */
+static sb_status prepare(const char *path, series *s, sb_error *error)
 {
     if (s->rows < LEAST_ROWS || s->rows > MOST_ROWS)
         return sb_fail(error, SB_BAD_INPUT, "%.500s: %zu rows, expected %d to %d", path, s->rows, LEAST_ROWS,
@@ -99,21 +102,21 @@ static sb_status check_series(const char *path, series *s, sb_error *error)
     bool constant = true;
     for (size_t i = 1; i < s->rows && constant; i++) constant = s->values[2 * i + 1] == s->values[1];
     if (constant) return sb_fail(error, SB_BAD_INPUT, "%.500s: the surface is constant, expected waves", path);
-    return check_times(path, s, error);
+    const sb_status status = check_times(path, s, error);
+    if (status != SB_OK) return status;
+    s->turn = sb_alloc(s->rows, sizeof *s->turn);
+    if (!s->turn) return sb_fail_memory(error, path);
+    for (size_t k = 0; k < s->rows; k++) s->turn[k] = cexp(CMPLX(0, -2 * M_PI * (double)k / (double)s->rows));
+    return SB_OK;
 }
 
 /* The Fourier coefficient n of the series less its mean: A in Re(A exp(2 pi i n t/T)), T = rows * step. */
-static void coefficient(const series *s, size_t n, double mean, double *re, double *im)
+static double complex coefficient(const series *s, size_t n, double mean)
 {
-    *re = *im = 0;
-    for (size_t i = 0; i < s->rows; i++) {
-        const double angle = 2 * M_PI * (double)((n * i) % s->rows) / (double)s->rows, v = s->values[2 * i + 1] - mean;
-        *re += v * cos(angle);
-        *im -= v * sin(angle);
-    }
-    const double scale = (2 * n == s->rows ? 1.0 : 2.0) / (double)s->rows;
-    *re *= scale;
-    *im *= scale;
+    double complex sum = 0;
+    for (size_t i = 0, at = 0; i < s->rows; i++, at = (at + n) % s->rows)
+        sum += (s->values[2 * i + 1] - mean) * s->turn[at];
+    return (2 * n == s->rows ? 1.0 : 2.0) / (double)s->rows * sum;
 }
 
 /* Share of the series' energy that may be left out at high frequencies: noise of the gauge, which asks for much speed.
@@ -130,11 +133,10 @@ static void fill_parts(const series *s, double distance, sb_wave_train *train)
     const size_t most = train->count;
     train->count = 0;
     for (size_t n = 1; n <= most && sum < (1 - LEFT_OUT) * energy; n++) {
-        double re, im;
-        coefficient(s, n, mean, &re, &im);
-        const double amplitude = hypot(re, im), omega = 2 * M_PI * (double)n / length;
+        const double complex a = coefficient(s, n, mean);
+        const double amplitude = cabs(a), omega = 2 * M_PI * (double)n / length;
         sb_wave_train_set(train, n - 1, amplitude, omega, 0);
-        train->part[n - 1].phase = remainder(atan2(im, re) + train->part[n - 1].number * distance, 2 * M_PI);
+        train->part[n - 1].phase = remainder(carg(a) + train->part[n - 1].number * distance, 2 * M_PI);
         train->count = n;
         sum += amplitude * amplitude;
         if (amplitude > highest) train->facts.period = length / (double)n;
@@ -147,7 +149,7 @@ static sb_status create_signal(const sb_wavemaker_parameters *p, void **state, s
 {
     series s = {0};
     sb_status status = sb_number_rows_read(p->file, 2, "time (s) surface (m)", &s.values, &s.rows, error);
-    if (status == SB_OK) status = check_series(p->file, &s, error);
+    if (status == SB_OK) status = prepare(p->file, &s, error);
     sb_wave_train *train = status == SB_OK ? sb_wave_train_create(p, s.rows / 2) : NULL;
     if (status == SB_OK && !train) status = sb_fail_memory(error, "a wave maker");
     if (train) fill_parts(&s, p->distance, train);
@@ -155,6 +157,7 @@ static sb_status create_signal(const sb_wavemaker_parameters *p, void **state, s
         status = sb_fail(error, SB_BAD_INPUT, "%.500s: the surface is constant, expected waves", p->file);
     if (status == SB_OK) status = check_sum(p, train, error);
     const double length = s.step * (double)s.rows;
+    sb_free(s.turn);
     sb_free(s.values);
     if (status != SB_OK) {
         sb_wave_train_destroy(train);

@@ -82,18 +82,23 @@ double sb_initial_crest(const sb_initial_wave *wave)
 }
 
 /* Refuses a wave that does not fit a whole number of times into a periodic domain. */
-static sb_status check_length(sb_reader *reader, const sb_yaml *map, const char *key, double length)
+static sb_status check_fit(sb_reader *reader, const sb_yaml *map, const char *key, double length)
 {
     const sb_domain *domain = &reader->scene->domain;
     const double extent = domain->max.x - domain->min.x, waves = fmax(round(extent / length), 1);
-    if (length < 4 * reader->scene->resolution)
-        return sb_reader_fail(reader, map, key, "a wavelength of %g m is too short, expected at least 4 spacings, %g m",
-                              length, 4 * reader->scene->resolution);
     if (!sb_scene_repeats(reader->scene, 0) || fabs(extent - waves * length) <= WHOLE * extent) return SB_OK;
     return sb_reader_fail(reader, map, key,
                           "a wavelength of %.10g m does not fit the periodic domain of %g m a whole number of times, "
                           "expected for example %.10g m",
                           length, extent, extent / waves);
+}
+
+static sb_status check_length(sb_reader *reader, const sb_yaml *map, const char *key, double length)
+{
+    if (length < 4 * reader->scene->resolution)
+        return sb_reader_fail(reader, map, key, "a wavelength of %g m is too short, expected at least 4 spacings, %g m",
+                              length, 4 * reader->scene->resolution);
+    return check_fit(reader, map, key, length);
 }
 
 /* Refuses components that break, each alone, or those of one direction together. Waves that meet do not break at that
@@ -131,6 +136,9 @@ sb_status sb_initial_wave_finish(sb_reader *reader, const sb_yaml *map, sb_initi
             return sb_reader_fail(reader, map, NULL, "%s", why.text);
         return check_length(reader, map, "wavelength", wave->wavelength);
     }
+    /* the grid of offshore is not periodic */
+    if (wave->kind == SB_INITIAL_STANDING && wave == &reader->scene->wave)
+        return check_fit(reader, map, "wavelength", wave->wavelength);
     if (wave->kind != SB_INITIAL_COMPONENTS) return SB_OK;
     if (wave->component_count == 0)
         return sb_reader_fail(reader, map, "components", "has no item, expected at least one");

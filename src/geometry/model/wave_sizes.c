@@ -54,7 +54,9 @@ static sb_status check_initial(const sb_scene *scene, sb_model *model, sb_error 
     if (wave->kind == SB_INITIAL_NONE) return SB_OK;
     for (size_t c = 0; wave->kind == SB_INITIAL_COMPONENTS && c < wave->component_count; c++)
         add_length(&found, wave->components[c].wavelength, model->spacing);
-    const sb_status status = check_height("initial wave", NULL, wave->height, model, error);
+    /* the height of a standing wave is given by its amplitude */
+    const double height = wave->kind == SB_INITIAL_STANDING ? 2 * wave->height : wave->height;
+    const sb_status status = check_height("initial wave", NULL, height, model, error);
     return status == SB_OK ? warn_of_lengths(&found, "water.wave.components", model, error) : status;
 }
 

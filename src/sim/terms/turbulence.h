@@ -15,8 +15,8 @@ static const float SB_KARMAN = 0.4f;
    gradient across the film. */
 static const float SB_THINNEST = 0.1f;
 
-/* Computes sim->work.eddy from the velocities after the stress correction, the neighbour lists and the densities. Never
-   fails. */
+/* Computes sim->work.eddy from the velocities after the stress correction, the neighbour lists and the densities.
+   SB_FAILED: too many boundary particles are near a particle. */
 sb_status sb_stage_turbulence(sb_sim *sim, sb_error *error);
 
 #endif

@@ -8,7 +8,6 @@
 #include "sim/wcsph/boundary.h"
 
 #include <math.h>
-#include <string.h>
 
 /* kernel: sum_k W_bk. curvature: sum_k W_bk (x_k - x_b).n_b / h, without the far face of a thin wall. */
 typedef struct sums {
@@ -68,28 +67,17 @@ int sb_wall_volumes(const sb_sim *sim, sb_wall_set *set, bool only_own)
     return 0;
 }
 
-/* Moves an array into one that holds `capacity` elements of `size` bytes. */
-static int lengthen(void **array, size_t count, size_t capacity, size_t size)
-{
-    void *longer = sb_alloc_untouched(capacity, size);
-    if (!longer) return -1;
-    memcpy(longer, *array, count * size);
-    sb_free(*array);
-    *array = longer;
-    return 0;
-}
-
 int sb_wall_images(sb_wall_set *set, const sb_space *space, uint32_t mark)
 {
     sb_record image[SB_IMAGES_MAX];
     const size_t own = set->count;
     size_t all = own;
     for (size_t i = 0; i < own; i++) all += (size_t)sb_space_images(space, set->record[i], image);
-    if (lengthen((void **)&set->record, own, all, sizeof *set->record) != 0 ||
-        lengthen((void **)&set->body, own, all, sizeof *set->body) != 0 ||
-        lengthen((void **)&set->facing, own, all, sizeof *set->facing) != 0)
+    if (sb_lengthen((void **)&set->record, own, all, sizeof *set->record) != 0 ||
+        sb_lengthen((void **)&set->body, own, all, sizeof *set->body) != 0 ||
+        sb_lengthen((void **)&set->facing, own, all, sizeof *set->facing) != 0)
         return -1;
-    if (set->number && lengthen((void **)&set->number, own, all, sizeof *set->number) != 0) return -1;
+    if (set->number && sb_lengthen((void **)&set->number, own, all, sizeof *set->number) != 0) return -1;
     for (size_t i = 0; i < own; i++) {
         int images = sb_space_images(space, set->record[i], image);
         for (int k = 0; k < images; k++) {

@@ -3,7 +3,6 @@
 #include "sim/wcsph/boundary.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Distance between the two layers, in particle spacings. */
 static const double BEHIND = 0.5;
@@ -24,24 +23,13 @@ static sb_vec3 staggered(const sb_sim *sim, sb_vec3 at, sb_vec3 normal)
     return sb_madd(sb_madd(at, shift, one), shift, other);
 }
 
-/* Moves an array into one of twice the length. */
-static int twice_as_long(void **array, size_t count, size_t size)
-{
-    void *longer = sb_alloc_untouched(2 * count, size);
-    if (!longer) return -1;
-    memcpy(longer, *array, count * size);
-    sb_free(*array);
-    *array = longer;
-    return 0;
-}
-
 int sb_boundary_layers(sb_sim *sim, sb_wall_set *set)
 {
     const size_t first = set->count;
     const int shift = sim->space.shift;
-    if (twice_as_long((void **)&set->record, first, sizeof *set->record) != 0 ||
-        twice_as_long((void **)&set->body, first, sizeof *set->body) != 0 ||
-        twice_as_long((void **)&set->facing, first, sizeof *set->facing) != 0)
+    if (sb_lengthen((void **)&set->record, first, 2 * first, sizeof *set->record) != 0 ||
+        sb_lengthen((void **)&set->body, first, 2 * first, sizeof *set->body) != 0 ||
+        sb_lengthen((void **)&set->facing, first, 2 * first, sizeof *set->facing) != 0)
         return -1;
     set->number = sb_alloc_untouched(2 * first, sizeof *set->number);
     if (!set->number) return -1;

@@ -17,7 +17,7 @@ static void too_coarse_scenes_give_warnings(void **state)
     assert_false(warned("\"block\"", "thick"));
     assert_true(warned("\"far\"", "no surface"));
     assert_true(warned("1.5 m deep", "3 times the particle spacing"));
-    assert_true(warned("initial wave", "0.6 times the particle spacing"));
+    assert_true(warned("initial wave", "a wave height of 0.6 m is 1.2 times the particle spacing"));
     scene.sea.present = false;
     build();
     assert_true(warned("the scene has no water", ""));

@@ -163,6 +163,7 @@ static void unfit_waves_are_refused(void **state)
          "components: the waves together have a significant height of 0.8 m and break: the highest is 6.28 m long on 1 "
          "m, expected a significant height of at most 0.68 m"},
         {"kind: standing, height: 0.1, wavelength: 4, order: linear", "does not apply"},
+        {"kind: standing, height: 0.1, wavelength: 4", "a whole number of times, expected for example 3.141592654"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         sb_scene scene;
