@@ -112,7 +112,7 @@ static const sb_key wave_keys[] = {
     {.name = "wavelength", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, wavelength),
      .unit = "m", .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
      .applies = STANDING | REGULAR, .only = "kind standing or regular",
-     .doc = "Wavelength: of a standing wave at least two particle spacings; of regular waves at least four, and one that "
+     .doc = "Wavelength: of a standing wave at least two particle spacings, of regular waves at least four, and one that "
             "fits a domain which is periodic in x a whole number of times."},
     {.name = "direction", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_initial_wave, direction), .min = -1,
      .max = 1, .fallback = "1", .applies = SOLITARY | REGULAR, .only = "kind solitary or regular",
