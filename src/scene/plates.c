@@ -31,9 +31,9 @@ size_t sb_scene_plates(const sb_scene *scene, const sb_wavemaker_use *use, sb_pl
     row->to = fmin(sb_component(body->max, row->axis) + move, sb_component(scene->domain.max, row->axis));
     if (flap) row->from = scene->sea.level - use->law.depth;
     const double width = flap ? ROW * scene->resolution : use->plates.width;
-    const double extent = row->to - row->from, narrowest = flap ? 0 : NARROWEST * scene->resolution * (1 - 1e-9);
-    const double most = narrowest > 0 ? floor(extent / narrowest) : 1e6;
-    row->count = (size_t)fmin(fmax(fmin(round(extent / width), most), 1), 1e6);
+    const double extent = row->to - row->from;
+    const double most = flap ? 1e6 : fmin(floor(extent / (NARROWEST * scene->resolution) + 1e-9), 1e6);
+    row->count = (size_t)fmax(fmin(round(extent / width), most), 1);
     return row->count;
 }
 

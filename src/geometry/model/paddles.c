@@ -11,7 +11,7 @@ static const double NEAR = 3;
 /* Share of its face that an undivided absorbing paddle needs in water: reflected is (1 - WIDE)/(1 + WIDE), 2.5 %. */
 static const double WIDE = 0.95;
 
-/* Where a paddle begins and ends along its direction, m. */
+/* Where a paddle, or the water ahead of it, begins and ends along a direction, m. */
 typedef struct extent {
     double back, front;
 } extent;
