@@ -1,7 +1,9 @@
-/* Allocates and frees meshes. */
+/* Meshes: their memory, and how far they reach. */
 #include "geometry/mesh/mesh.h"
 
 #include "base/memory.h"
+
+#include <math.h>
 
 sb_status sb_mesh_alloc(sb_mesh *mesh, size_t vertices, size_t triangles, sb_error *error)
 {
@@ -22,4 +24,11 @@ void sb_mesh_free(sb_mesh *mesh)
     sb_free(mesh->told);
     sb_free(mesh->projection);
     *mesh = (sb_mesh){0};
+}
+
+double sb_mesh_front(const sb_mesh *mesh, sb_vec3 direction)
+{
+    double front = -(double)INFINITY;
+    for (size_t v = 0; v < mesh->vertex_count; v++) front = fmax(front, sb_dot(mesh->vertices[v], direction));
+    return front;
 }

@@ -36,6 +36,9 @@ sb_status sb_mesh_alloc(sb_mesh *mesh, size_t vertices, size_t triangles, sb_err
 /* Frees the mesh's arrays and zeroes it. A zeroed mesh is allowed. */
 void sb_mesh_free(sb_mesh *mesh);
 
+/* Place along a direction of the foremost vertex, m; -infinity without vertices. */
+double sb_mesh_front(const sb_mesh *mesh, sb_vec3 direction);
+
 /* Faults of a mesh: their counts and the place of the first of each kind. Vertices at the same place count as one. */
 typedef struct sb_mesh_report {
     size_t open_edges;       /* edges with one triangle only */

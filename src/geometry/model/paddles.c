@@ -21,10 +21,9 @@ static extent extent_of(const sb_model *model, size_t maker, sb_vec3 along)
     extent found = {(double)INFINITY, -(double)INFINITY};
     for (size_t b = 0; b < model->body_count; b++) {
         const sb_mesh *mesh = &model->bodies[b].mesh;
-        for (size_t i = 0; i < mesh->vertex_count && model->bodies[b].wavemaker == (int)maker; i++) {
-            const double at = sb_dot(mesh->vertices[i], along);
-            found = (extent){fmin(found.back, at), fmax(found.front, at)};
-        }
+        if (model->bodies[b].wavemaker != (int)maker) continue;
+        found.back = fmin(found.back, -sb_mesh_front(mesh, sb_scale(along, -1)));
+        found.front = fmax(found.front, sb_mesh_front(mesh, along));
     }
     return found;
 }

@@ -10,13 +10,6 @@
 /* Periods over which the drift is a mean. */
 static const double DRIFT_PERIODS = 10;
 
-double sb_paddle_face(const sb_mesh *mesh, sb_vec3 direction)
-{
-    double face = -(double)INFINITY;
-    for (size_t v = 0; v < mesh->vertex_count; v++) face = fmax(face, sb_dot(mesh->vertices[v], direction));
-    return face;
-}
-
 bool sb_absorber_repeats(const sb_scene *scene, const sb_absorber *a)
 {
     for (int axis = 0; axis < 2; axis++) {
@@ -33,8 +26,8 @@ static void find_extent(const sb_domain *domain, const sb_mesh *mesh, sb_vec3 di
     const sb_vec3 side = sb_vec(-direction.y, direction.x, 0), back = sb_scale(side, -1);
     a->side[0] = side.x;
     a->side[1] = side.y;
-    a->from[0] = -fmin(sb_paddle_face(mesh, back), sb_domain_end(domain, back));
-    a->from[1] = fmin(sb_paddle_face(mesh, side), sb_domain_end(domain, side));
+    a->from[0] = -fmin(sb_mesh_front(mesh, back), sb_domain_end(domain, back));
+    a->from[1] = fmin(sb_mesh_front(mesh, side), sb_domain_end(domain, side));
 }
 
 sb_status sb_absorber_create(sb_sim *sim, size_t body, sb_moving_body *moving, sb_error *error)
@@ -47,7 +40,7 @@ sb_status sb_absorber_create(sb_sim *sim, size_t body, sb_moving_body *moving, s
     a->reach = use->law.reach;
     a->period = moving->paddle.kind->facts(moving->paddle.state)->period;
     const sb_mesh *mesh = &sim->model->bodies[body].mesh;
-    a->face = sb_paddle_face(mesh, use->direction);
+    a->face = sb_mesh_front(mesh, use->direction);
     if (sim->model->bodies[body].plates > 0)
         sb_plate_find(sim, body, a);
     else

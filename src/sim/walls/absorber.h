@@ -40,8 +40,6 @@ double sb_column_weight(double x);
    [-3, 3] has not: rows that begin half a spacing from the face have 0.4 % less than the same particles in disorder.
    Push-plates still use the latter (docs/decisions/0071). */
 double sb_column_window(double x);
-/* Place along a direction of the foremost vertex of a body, m. */
-double sb_paddle_face(const sb_mesh *mesh, sb_vec3 direction);
 /* Whether the face ends at two periodic sides, and so has no ends. */
 bool sb_absorber_repeats(const sb_scene *scene, const sb_absorber *a);
 /* plates.c: sets the extent of a push-plate: side and from are those of the whole row. */
