@@ -9,13 +9,17 @@ typedef struct walk {
     void *context;
 } walk;
 
-/* The default preset's value, and those of the presets with other values. */
+/* The default preset's value, then that in two dimensions and those of the other presets where they differ. */
 static void format_presets(const sb_key *key, const char *usual, char *out, size_t size)
 {
-    const char *before = " (";
+    const char *before = " (", *flat = sb_key_default(key, SB_PRESET_DEFAULT, 2);
     int used = snprintf(out, size, "%s", usual);
+    if (strcmp(usual, flat) != 0 && used > 0 && (size_t)used < size) {
+        used += snprintf(out + used, size - (size_t)used, "%s2D: %s", before, flat);
+        before = ", ";
+    }
     for (int p = SB_PRESET_DEFAULT + 1; sb_preset_names[p] && used > 0 && (size_t)used < size; p++) {
-        const char *other = sb_key_default(key, (sb_preset)p);
+        const char *other = sb_key_default(key, (sb_preset)p, 3);
         if (strcmp(usual, other) == 0) continue;
         used += snprintf(out + used, size - (size_t)used, "%s%s: %s", before, sb_preset_names[p], other);
         before = ", ";
@@ -26,7 +30,7 @@ static void format_presets(const sb_key *key, const char *usual, char *out, size
 /* Formats the default as docs/scene.md shows it. */
 static void format_default(const sb_key *key, char *out, size_t size)
 {
-    const char *usual = sb_key_default(key, SB_PRESET_DEFAULT);
+    const char *usual = sb_key_default(key, SB_PRESET_DEFAULT, 3);
     if (key->flags & SB_KEY_REQUIRED_3D)
         snprintf(out, size, "required in 3D; 2D: %s", key->derived ? key->derived : usual);
     else if (key->derived)

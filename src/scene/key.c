@@ -48,9 +48,9 @@ const char *sb_table_nearest(const sb_table *table, const char *name)
     return nearest.found;
 }
 
-const char *sb_key_default(const sb_key *key, sb_preset preset)
+const char *sb_key_default(const sb_key *key, sb_preset preset, int dimensions)
 {
-    return key->flags & SB_KEY_PRESET ? sb_preset_value(preset, key->name) : key->fallback;
+    return key->flags & SB_KEY_PRESET ? sb_preset_value(preset, dimensions, key->name) : key->fallback;
 }
 
 typedef struct text_buffer {

@@ -106,8 +106,8 @@ const sb_key *sb_table_find(const sb_table *table, const char *name);
 /* The key name most similar to a misspelt one; NULL if none is similar. */
 const char *sb_table_nearest(const sb_table *table, const char *name);
 
-/* The default under that preset as YAML text; NULL if the row has none. */
-const char *sb_key_default(const sb_key *key, sb_preset preset);
+/* The default under that preset in a scene of that many dimensions as YAML text; NULL if the row has none. */
+const char *sb_key_default(const sb_key *key, sb_preset preset, int dimensions);
 
 /* Describes the values that the key accepts: "metres > 0", "[x, z] in metres", "wall, open or periodic". */
 void sb_key_expectation(const sb_key *key, int dimensions, char *out, size_t size);

@@ -2,15 +2,17 @@
 
 #include <string.h>
 
-/* One row per key of `numerics`; the columns are in the order of sb_preset. After a change here,
-   run test_scene_docs with SB_UPDATE_DOCS=1 to update docs/scene.md. */
+/* One row per key of `numerics`; the columns are in the order of sb_preset, then the value of the default preset in
+   scenes of two dimensions if it is another one. After a change here, run test_scene_docs with SB_UPDATE_DOCS=1 to
+   update docs/scene.md. */
+enum { IN_2D = 3 };
 /* clang-format off */
 static const struct {
-    const char *key, *value[3];
+    const char *key, *value[4];
 } rows[] = {
-    /* key                     default        paper        wen */
+    /* key                     default        paper        wen            default in 2D */
     {"kernel",               {"wendland-c2", "cubic",     "wendland-c2"}},
-    {"support",              {"2.75",        "2",         "3"}},
+    {"support",              {"2.75",        "2",         "3",           "3.25"}},
     {"kernel_correction",    {"none",        "none",      "cspm"}},
     {"density",              {"completed",   "summed",    "summed"}},
     {"solver",               {"chebyshev",   "jacobi",    "wcsph"}},
@@ -47,9 +49,12 @@ static const struct {
 
 const char *const sb_preset_names[] = {"default", "paper", "wen", NULL};
 
-const char *sb_preset_value(sb_preset preset, const char *key)
+const char *sb_preset_value(sb_preset preset, int dimensions, const char *key)
 {
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (strcmp(rows[i].key, key) == 0) return rows[i].value[preset];
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        if (strcmp(rows[i].key, key) != 0) continue;
+        const bool differs = preset == SB_PRESET_DEFAULT && dimensions == 2 && rows[i].value[IN_2D];
+        return rows[i].value[differs ? IN_2D : preset];
+    }
     return NULL;
 }

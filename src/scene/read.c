@@ -135,7 +135,7 @@ static sb_status read_list(sb_reader *reader, const sb_yaml *list, const sb_key 
 /* Reads the text of a default as if it were written in the scene. */
 static sb_status read_default(sb_reader *reader, const sb_key *key, void *field)
 {
-    const char *text = sb_key_default(key, reader->scene->numerics.preset);
+    const char *text = sb_key_default(key, reader->scene->numerics.preset, reader->scene->dimensions);
     if (!text) return SB_OK;
     sb_yaml node = {0};
     sb_yaml_source source = {.name = key->name};

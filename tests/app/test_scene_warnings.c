@@ -123,7 +123,7 @@ static const struct {
     {GIVEN("source: none", ", planes: [{name: land, from: [4.5], record: true}]"),
      "measure.planes \"land\": no still water stands along it", "expected a plane in the water, outside of bodies"},
     {GIVEN("source: none", ", planes: [{name: line, from: [0.1], record: true}]"),
-     "measure.planes \"line\": it lies in the strip of x_min", "expected at least 0.2 m from the side"},
+     "measure.planes \"line\": it lies in the strip of x_min", "expected at least 0.25 m from the side"},
     {FLUME(WAVES, BEACH "length: 5, depth: 5}", ""), "sponge \"beach\": its depth is 5 m", "there is 1 m deep"},
     {FLUME(WAVES, BEACH "length: 10.9, depth: 1}", ""),
      "sponge \"beach\": it covers the face of wave maker \"w\" at x = 0 m", "expected a length below 10 m"},

@@ -122,12 +122,27 @@ static void probes_on_stairs_read_hydrostatic_pressure(void **state)
     check_pressures(&r, z, 4, 0.6, 0.05);
 }
 
-/* The opposite wall, two spacings away, is not a crossing wall. */
-static void a_probe_in_a_narrow_channel_reads_hydrostatic_pressure(void **state)
+/* Three spacings wide. */
+static void a_narrow_channel_has_hydrostatic_pressure(void **state)
 {
     (void)state;
     static const double z[] = {0.2, 0.3};
     const readings r = at_rest("water: {level: 0.5, seed: [1.9, 0.1]}\n"
+                               "bodies: [{name: left, shape: box, min: [0.6, 0.1], max: [0.9, 0.4]},\n"
+                               "         {name: right, shape: box, min: [0.975, 0.1], max: [1.25, 0.4]}]\n"
+                               "measure:\n"
+                               "  interval: 0.05\n"
+                               "  probes: [{name: a, at: [0.9, 0.2]}, {name: b, at: [0.975, 0.3]}]\n");
+    check_pressures(&r, z, 2, 0.5, 0.05);
+}
+
+/* The opposite wall, two spacings away, is not a crossing wall. In so narrow a channel the pressure itself is 0.5 rho g
+   spacings too high with a support radius of 3.25 spacings, 0.2 with one of 2.75. */
+static void a_probe_in_a_narrow_channel_reads_hydrostatic_pressure(void **state)
+{
+    (void)state;
+    static const double z[] = {0.2, 0.3};
+    const readings r = at_rest("water: {level: 0.5, seed: [1.9, 0.1]}\nnumerics: {support: 2.75}\n"
                                "bodies: [{name: left, shape: box, min: [0.6, 0.1], max: [0.9, 0.4]},\n"
                                "         {name: right, shape: box, min: [0.95, 0.1], max: [1.25, 0.4]}]\n"
                                "measure:\n"
@@ -244,6 +259,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(probes_in_corners_read_hydrostatic_pressure),
         cmocka_unit_test(probes_on_stairs_read_hydrostatic_pressure),
+        cmocka_unit_test(a_narrow_channel_has_hydrostatic_pressure),
         cmocka_unit_test(a_probe_in_a_narrow_channel_reads_hydrostatic_pressure),
         cmocka_unit_test(a_probe_on_a_narrow_tread_reads_hydrostatic_pressure),
         cmocka_unit_test(probes_on_thin_plates_read_hydrostatic_pressure),

@@ -131,8 +131,9 @@ static void check_defaults(const sb_request *request)
         set[count] = (sb_override){keys[count], equals + 1};
     }
     if (sb_scene_read(file, NULL, set, count, &scene, &error) != SB_OK) fail_msg("%s", error.text);
-    if (sb_scene_read(SB_SOURCE_DIR "/assets/scenes/house.yaml", "default", set, 1, &plain, &error) != SB_OK)
-        fail_msg("%s", error.text);
+    const char *bare = scene.dimensions == 2 ? SB_SOURCE_DIR "/assets/scenes/solitary-flume.yaml"
+                                             : SB_SOURCE_DIR "/assets/scenes/house.yaml";
+    if (sb_scene_read(bare, "default", set, 1, &plain, &error) != SB_OK) fail_msg("%s", error.text);
     if (memcmp(&scene.numerics, &plain.numerics, sizeof plain.numerics) != 0)
         fail_msg("%s: numerics differ from those of the default preset", request->of->name);
     sb_scene_free(&scene);

@@ -11,6 +11,7 @@ void problem_begin(problem *p, int dimensions, sb_preset preset)
     sb_vec3 size = flat ? sb_vec(3, 0, 2) : sb_vec(2, 0.8, 1.5);
     tank_of_particles(&p->tank, dimensions, flat ? 0.05 : 0.1, size, flat ? 2 : 1.4, flat ? 1.4 : 1.2, 0.1);
     tank_use(&p->tank, preset);
+    if (preset == SB_PRESET_DEFAULT) p->tank.scene.numerics.support = 2.75; /* in 2D, too: docs/method.md, section 2 */
     p->tank.scene.numerics.solver = SB_SOLVER_CG;
     p->tank.scene.numerics.wall_friction = 0.05;
     p->tank.model.fluid_position[0] = sb_vec(size.x - 0.33, size.y / 2, size.z - 0.3);

@@ -281,6 +281,7 @@ static void a_stretched_lattice_is_isotropic(void **state)
             at->x = 1.5 + (at->x - 1.5) / 1.08;
             at->z = 1.5 + (at->z - 1.5) * 1.08;
         }
+        t.scene.numerics.support = 2.75; /* at 3.25 in 2D the lattice is isotropic to 0.3 % without it */
         t.scene.numerics.stress_correction = 1;
         t.scene.numerics.stress_memory = 0;
         const double off = acceleration_along(&t, 0, false) / acceleration_along(&t, 2, false) - 1;

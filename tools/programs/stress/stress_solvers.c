@@ -46,8 +46,8 @@ static void plan_steps(sb_trials *trials, bool quick)
             if (quick && (s != 1 || k == 1 || k == 4)) continue;
             sb_trial *t = sb_trial_add(trials, "collapse.yaml", "%s-dt-x%g", solvers[s], steps[k]);
             sb_trial_set(t, "numerics.solver=%s", solvers[s]);
-            sb_trial_set(t, "numerics.time_step_factor=%.9g", sb_trial_default("time_step_factor") * steps[k]);
-            sb_trial_set(t, "numerics.cfl=%.9g", fmin(1, sb_trial_default("cfl") * steps[k]));
+            sb_trial_set(t, "numerics.time_step_factor=%.9g", sb_trial_default(2, "time_step_factor") * steps[k]);
+            sb_trial_set(t, "numerics.cfl=%.9g", fmin(1, sb_trial_default(2, "cfl") * steps[k]));
             sb_trial_drive(t, &drive, steps[k]);
             if (steps[k] > 1) t->may_lose = 0.01; /* a run warns of such steps */
             if (steps[k] > 2) t->ends |= SB_ENDS_REFUSED;

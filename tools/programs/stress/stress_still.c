@@ -4,29 +4,32 @@
 #include <math.h>
 
 /* Duration of so many default time steps, time_step_factor h/sqrt(g D). */
-static double duration(double spacing, double depth, double steps)
+static double duration(int dimensions, double spacing, double depth, double steps)
 {
-    return steps * sb_trial_default("time_step_factor") * sb_trial_default("support") * spacing / sqrt(9.81 * depth);
+    const double factor = sb_trial_default(dimensions, "time_step_factor"),
+                 support = sb_trial_default(dimensions, "support");
+    return steps * factor * support * spacing / sqrt(9.81 * depth);
 }
 
-static void add(sb_trials *trials, const char *scene, const char *name, double spacing, double depth, double steps)
+static void add(sb_trials *trials, const char *scene, int dimensions, const char *name, double spacing, double depth,
+                double steps)
 {
     sb_trial *t = sb_trial_add(trials, scene, "%s", name);
     sb_trial_set(t, "resolution=%g", spacing);
-    sb_trial_set(t, "duration=%g", duration(spacing, depth, steps));
+    sb_trial_set(t, "duration=%g", duration(dimensions, spacing, depth, steps));
     sb_trial_drive(t, &sb_drive_plain, steps);
 }
 
 static void plan(sb_trials *trials, bool quick)
 {
     if (quick) {
-        add(trials, "still.yaml", "slice-0.1", 0.1, 0.5, 1000);
+        add(trials, "still.yaml", 2, "slice-0.1", 0.1, 0.5, 1000);
         return;
     }
-    add(trials, "still.yaml", "slice-0.1", 0.1, 0.5, 10000);
-    add(trials, "still.yaml", "slice-0.05", 0.05, 0.5, 10000);
-    add(trials, "still.yaml", "slice-0.025", 0.025, 0.5, 10000);
-    add(trials, "basin.yaml", "basin-0.1", 0.1, 0.6, 10000);
+    add(trials, "still.yaml", 2, "slice-0.1", 0.1, 0.5, 10000);
+    add(trials, "still.yaml", 2, "slice-0.05", 0.05, 0.5, 10000);
+    add(trials, "still.yaml", 2, "slice-0.025", 0.025, 0.5, 10000);
+    add(trials, "basin.yaml", 3, "basin-0.1", 0.1, 0.6, 10000);
 }
 
 static void judge(sb_judged *j)

@@ -59,8 +59,8 @@ sb_status sb_trial_scene(const sb_trial *trial, const char *assets, sb_scene *sc
     return status == SB_OK ? sb_settings_scene(path, NULL, settings, trial->setting_count, scene, error) : status;
 }
 
-double sb_trial_default(const char *key)
+double sb_trial_default(int dimensions, const char *key)
 {
-    const char *text = sb_preset_value(SB_PRESET_DEFAULT, key);
+    const char *text = sb_preset_value(SB_PRESET_DEFAULT, dimensions, key);
     return text ? strtod(text, NULL) : 0;
 }

@@ -52,8 +52,8 @@ void sb_trial_set(sb_trial *trial, const char *setting, ...) __attribute__((form
 void sb_trial_drive(sb_trial *trial, const sb_drive *drive, double number);
 void sb_trials_free(sb_trials *trials);
 
-/* Value of a key of `numerics` in the default preset. */
-double sb_trial_default(const char *key);
+/* Value of a key of `numerics` in the default preset, in a scene of that many dimensions. */
+double sb_trial_default(int dimensions, const char *key);
 
 /* Reads the scene of a trial. SB_BAD_INPUT as sb_scene_read. */
 sb_status sb_trial_scene(const sb_trial *trial, const char *assets, sb_scene *scene, sb_error *error);
