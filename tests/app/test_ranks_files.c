@@ -187,9 +187,9 @@ static void a_full_disk_of_one_rank_leaves_the_checkpoint_before(void **state)
     assert_int_equal(list_checkpoints("full", names), 1);
     program_on_ranks("1");
     outcome o =
-        RUN(0, "run", "measured.yaml", "--out", in_folder("full"), "--quiet", FINE, "--until", "0.003", "--resume", ":",
+        RUN(0, "run", "measured.yaml", "--out", in_folder("full"), "--quiet", FINE, "--until", "0.005", "--resume", ":",
             "-n", "1", "-x", "LD_PRELOAD=" SB_BINARY_DIR "/libfull_disk.so", SB_BINARY_DIR "/shorebreak", "run",
-            "measured.yaml", "--out", in_folder("full"), "--quiet", FINE, "--until", "0.003", "--resume");
+            "measured.yaml", "--out", in_folder("full"), "--quiet", FINE, "--until", "0.005", "--resume");
     program_on_ranks(NULL);
     assert_int_equal(count_of(o.err, "shorebreak: "), 1);
     assert_contains(o.err, "no checkpoint at step ");
@@ -198,7 +198,7 @@ static void a_full_disk_of_one_rank_leaves_the_checkpoint_before(void **state)
     char again[16][64];
     assert_int_equal(list_checkpoints("full", again), 1);
     assert_string_equal(again[0], names[0]);
-    RUN_ON("2", 0, "measured.yaml", "--out", "full", "--quiet", FINE, "--until", "0.003", "--resume");
+    RUN_ON("2", 0, "measured.yaml", "--out", "full", "--quiet", FINE, "--until", "0.005", "--resume");
 }
 
 static sb_frame *last_frame(const char *path, bool pieces)
