@@ -353,12 +353,13 @@ static void a_child_continues_with_the_counter(void **state)
     const message first = made(&token, RUN, 10, "{\"do\":\"pause\"}"),
                   second = made(&token, RUN, 11, "{\"do\":\"stop\"}");
     for (int killed = 0; killed < 20; killed++) {
+        const uint64_t before = sb_receiver_count(receiver).malformed;
         const pid_t child = fork();
         if (child == 0) {
             give(&first, NULL);
             for (;;) sb_receiver_count_malformed(receiver);
         }
-        usleep(2000);
+        while (sb_receiver_count(receiver).malformed == before) usleep(200); /* until it has taken the message */
         kill(child, SIGKILL);
         waitpid(child, NULL, 0);
     }
