@@ -198,7 +198,7 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
 #define HIGHER "wavemakers.waves.height=0.1"
 #define CHEN                                                                                                           \
     "water.level=0.505", "wavemakers.waves.height=0.07", "wavemakers.waves.depth=0.505",                               \
-        "wavemakers.waves.period=1.22", "sponges.beach.period=1.22", "sponges.beach.depth=0.505", "duration=17.08"
+        "wavemakers.waves.period=1.22", "sponges.beach.period=1.22", "sponges.beach.depth=0.505", "duration=13.42"
 static const char *const plain_a[] = {"render.interval=0", NULL}, *const alone_a[] = {ALONE("0.12"), NULL},
                          *const coarse_a[] = {"render.interval=0", NULL},
                          *const coarse_alone_a[] = {ALONE("0.4"), NULL};
