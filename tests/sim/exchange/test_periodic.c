@@ -212,7 +212,7 @@ static void a_cloud_meets_its_images(void **state)
 {
     const sb_preset preset = preset_of(state);
     check(preset, 2, true, false, sb_vec(2.037, 0, 1.5));
-    check(preset, 2, true, false, sb_vec(0.275, 0, 1.5));
+    check(preset, 2, true, false, sb_vec(0.326, 0, 1.5));
     check(preset, 3, true, false, sb_vec(1.237, 0.8, 0.8));
     check(preset, 3, false, true, sb_vec(1.2, 0.671, 0.8));
     check(preset, 3, false, true, sb_vec(1.2, 0.4, 0.8));
