@@ -131,7 +131,7 @@ const sb_stress sb_stress_immersed = {
 /* Twice the speed above which the CFL bound, and not the longest time step, limits the step. */
 static double twice_cfl(double depth)
 {
-    return 2 * sb_trial_default(2, "cfl") / sb_trial_default(3, "time_step_factor") * sqrt(9.81 * depth);
+    return 2 * sb_trial_default(2, "cfl") / sb_trial_default(2, "time_step_factor") * sqrt(9.81 * depth);
 }
 
 static void plan_paddles(sb_trials *trials, bool quick)
