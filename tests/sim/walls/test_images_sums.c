@@ -309,7 +309,8 @@ static void a_lattice_round_a_block(void **state)
 }
 
 /* Four blocks with alleys of one spacing between them and to the walls: of the thousands of images near a crossing,
-   most are hidden. */
+   most are hidden. A crossing is hardly wider than the transition at its four edges, and up to 2 % too dense; a path
+   too many to the nearest neighbours would be 6 %, to those beyond a corner 3 %. */
 static void alleys_that_cross(void **state)
 {
     (void)state;
@@ -328,16 +329,19 @@ static void alleys_that_cross(void **state)
     basin_build(&b, set, sizeof set / sizeof *set);
     basin_start(&b);
     assert_int_equal(tank_prepare(b.sim, 0.01), 0);
-    double least = INFINITY, most = 0;
+    double least[2] = {INFINITY, INFINITY}, most[2] = {0};
     for (size_t i = 0; i < b.sim->state.n; i++) {
         const double rho = (double)b.sim->work.density[i];
-        if (sb_space_position(&b.sim->space, b.sim->state.position[i]).z > 0.7 - (double)b.sim->constant.support)
-            continue;
-        least = fmin(least, rho);
-        most = fmax(most, rho);
+        const sb_vec3 at = sb_space_position(&b.sim->space, b.sim->state.position[i]);
+        if (at.z > 0.7 - (double)b.sim->constant.support) continue;
+        const bool crossing = fmod(at.x, 0.4) < 0.1 && fmod(at.y, 0.4) < 0.1;
+        least[crossing] = fmin(least[crossing], rho);
+        most[crossing] = fmax(most[crossing], rho);
     }
-    printf("  density %.1f to %.1f kg/m^3; the bulk has 1005.4\n", least, most);
-    assert_true(least > 0.99 * 1005.4 && most < 1.012 * 1005.4);
+    printf("  density in alleys %.1f to %.1f, in crossings %.1f to %.1f kg/m^3; the bulk has 1005.4\n", least[0],
+           most[0], least[1], most[1]);
+    assert_true(least[0] > 0.995 * 1005.4 && most[0] < 1.005 * 1005.4);
+    assert_true(least[1] > 0.99 * 1005.4 && most[1] < 1.02 * 1005.4);
     basin_free(&b);
 }
 

@@ -6,9 +6,9 @@
 
 #include <math.h>
 
-/* Width of the transition at an edge, in spacings: with it a lattice round an edge of 90 degrees has the density of the
-   bulk (docs/method.md). */
-static const float SB_TRANSITION = 0.35f;
+/* Width of the transition at an edge, in spacings: a narrower one is a step to a particle that passes, in which
+   pressure holds it (docs/decisions/0101). */
+static const float SB_TRANSITION = 0.7f;
 
 /* In widths: where the transition has ended. */
 static const float SB_TRANSITION_ENDS = 3.5f;
