@@ -24,9 +24,9 @@ static inline double sb_repeat_length(const sb_scene *scene, sb_vec3 min, sb_vec
     return sb_scene_repeats(scene, axis) ? length : 0;
 }
 
-/* Distance below which particles are connected, in spacings. It exceeds the diagonal of a lattice face, 1.41. With
-   the next distance in a lattice, 1.73, particles would be connected across a missing layer. */
-#define SB_LINK 1.5
+/* Distance below which particles are connected, in spacings: that across a missing layer of water at rest. Rows of
+   water that a steep wave stretches are nearer to each other, drops are farther from the water that they leave. */
+#define SB_LINK 2.0
 
 /* The cubic B-spline of support 2: it sums to 1 over the integers at any shift. */
 static inline double sb_bspline(double u)

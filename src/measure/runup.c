@@ -23,6 +23,9 @@
 /* Half-width of the strip in support radii within which connected water may flow around a gap in the line. */
 static const double STRIP = 2;
 
+/* Distance from the ground or a wall at which a particle wets it, in spacings. */
+static const double WETS = 1.5;
+
 /* The line in plan. */
 typedef struct course {
     double ax, ay, length, ux, uy; /* first end, m, unit direction */
@@ -189,7 +192,7 @@ static int compare_points(const void *left, const void *right)
 /* How far from the line particles count, and the surface beside these, m. */
 static double shore_reach(const sb_scene *scene)
 {
-    return (1 + SB_LINK) * scene->resolution;
+    return (1 + WETS) * scene->resolution;
 }
 
 sb_model_place sb_shore_place(const sb_scene *scene, const sb_runup_line *line)
@@ -258,7 +261,7 @@ static sb_vec3 highest(const sb_measure_view *view, const course *c, const sb_sh
     for (size_t i = 0; i < cloud->count; i++) {
         const sb_vec3 place = cloud->samples[i].position;
         if (!cloud->marks[i] || !(distance_to(c, place, first) <= spacing) || place.z <= best.z) continue;
-        if (!shore || wets(shore, c, place, SB_LINK * spacing)) best = place;
+        if (!shore || wets(shore, c, place, WETS * spacing)) best = place;
     }
     return best;
 }

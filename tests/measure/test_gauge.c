@@ -117,6 +117,25 @@ static void spray_does_not_count(void **state)
     fake_world_free(&world);
 }
 
+/* Under the crest of a steep wave columns of water are narrower, their rows farther apart. The level is half a row
+   above the top row, whatever the stretch. */
+static void stretched_water_is_one_body(void **state)
+{
+    (void)state;
+    for (double stretch = 1; stretch < 1.95; stretch += 0.1) {
+        double worst = 0;
+        fake_world world;
+        fake_world_make(&world, 2, 0.1, sb_vec(0, 0, -1), sb_vec(4, 0, 4));
+        for (int row = 0; row < 8; row++)
+            for (double x = 0.5 * 0.1 / stretch; x < 4; x += 0.1 / stretch)
+                fake_add(&world.sim, sb_vec(x, 0, 0.1 * stretch * (row + 0.5)), sb_vec(0, 0, 0), 0);
+        for (double x = 1; x < 3; x += 0.037) worst = fmax(worst, fabs(read_at(&world, x, 0) - 0.8 * stretch) / 0.1);
+        print_message("rows %.1f spacings apart: worst %.3f spacings\n", stretch, worst);
+        assert_true(worst < 0.15);
+        fake_world_free(&world);
+    }
+}
+
 static void dry_is_nan(void **state)
 {
     (void)state;
@@ -159,6 +178,7 @@ int main(void)
         cmocka_unit_test(walls_do_not_change_the_level),
         cmocka_unit_test(slope_is_followed),
         cmocka_unit_test(spray_does_not_count),
+        cmocka_unit_test(stretched_water_is_one_body),
         cmocka_unit_test(dry_is_nan),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
