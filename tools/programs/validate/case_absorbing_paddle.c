@@ -87,7 +87,7 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
         .headline = "reflected by the paddle",                                                                         \
         .what = &early_##id,                                                                                           \
         .full = {{.resolution = fine, .variant = "without absorption", .settings = fixed_##id},                        \
-                 {.resolution = fine, .judged = true}},                                                                \
+                 {.resolution = fine, .judged = true, .seeds = 3}},                                                    \
         .quick = {{.resolution = coarse, .variant = "without absorption", .settings = fixed_##id},                     \
                   {.resolution = coarse, .judged = true, .settings = quick_##id}},                                     \
         .evaluate = evaluate,                                                                                          \
