@@ -76,12 +76,14 @@ static inline uint16_t sb_direct(const sb_lists *lists, size_t i)
 }
 
 /* What a pair (i, j) has besides its slope where its weight changes with the places of both: m W times the derivative
-   of the weight by x_i (own) and by x_j (other), kg/m^4. mirror: the facet that weighs the path. */
+   of the weight by x_i (own) and by x_j (other), kg/m^4. head: own times the quanta by which the image is below its
+   original, 0 of direct pairs. mirror: the facet that weighs the path. */
 typedef struct sb_edge_pair {
     float own[3];
     uint32_t entry;
     float other[3];
     uint32_t mirror;
+    float head[3];
 } sb_edge_pair;
 
 SB_INLINE sb_f4 sb_edge_own(const sb_edge_pair *e)
@@ -92,6 +94,11 @@ SB_INLINE sb_f4 sb_edge_own(const sb_edge_pair *e)
 SB_INLINE sb_f4 sb_edge_other(const sb_edge_pair *e)
 {
     return (sb_f4){e->other[0], e->other[1], e->other[2], 0};
+}
+
+SB_INLINE sb_f4 sb_edge_head(const sb_edge_pair *e)
+{
+    return (sb_f4){e->head[0], e->head[1], e->head[2], 0};
 }
 
 /* Such pairs of particle i: [first[i], first[i] + count[i]). */

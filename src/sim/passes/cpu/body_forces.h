@@ -40,6 +40,7 @@ enum { SB_REACTIONS_MAX = 200 };
 typedef struct sb_reactions {
     uint32_t count, plane[SB_REACTIONS_MAX]; /* those that react */
     float along[SB_REACTIONS_MAX];           /* m/s^2 along each plane's normal, by plane; 0 before */
+    sb_f4 across[SB_REACTIONS_MAX];          /* m/s^2, other parts along the normal included, which do not count */
     bool known[SB_REACTIONS_MAX];
 } sb_reactions;
 
@@ -50,6 +51,12 @@ SB_INLINE void sb_reaction(sb_reactions *r, uint32_t plane, float along)
         r->plane[r->count++] = plane;
     }
     r->along[plane] += along;
+}
+
+/* Adds the part across the normal of the acceleration `a` by an image, of which sb_reaction had the other part. */
+SB_INLINE void sb_reaction_across(sb_reactions *r, uint32_t plane, sb_f4 a)
+{
+    r->across[plane] -= a;
 }
 
 /* Adds the acceleration `a` by an image. */
@@ -67,15 +74,16 @@ SB_INLINE void sb_reactions_reflected(sb_reactions *r, const sb_group_plane *pla
     }
 }
 
-/* Adds the parts of the acceleration `a` along the normals of a path's planes. Planes at other than right angles each
-   take what is left. */
-SB_INLINE void sb_reactions_normal(sb_reactions *r, const sb_group_plane *planes, uint32_t path, sb_f4 a)
+/* Adds the acceleration `a` that images give the particle alone. Each plane of the path takes the part of what is left
+   along its normal, the last one the rest. */
+SB_INLINE void sb_reactions_whole(sb_reactions *r, const sb_group_plane *planes, uint32_t path, sb_f4 a)
 {
     for (; path; path >>= SB_REFLECTION_BITS) {
         const uint32_t plane = (path & SB_REFLECTION_MASK) - 1;
         const float along = sb_sum3(planes[plane].plane * a);
         a -= planes[plane].plane * (sb_f4){along, along, along, 0};
         sb_reaction(r, plane, -along);
+        if (path <= SB_REFLECTION_MASK) sb_reaction_across(r, plane, a);
     }
 }
 

@@ -1,5 +1,6 @@
 /* The pairs at edges of a particle, and what repels it from its own images. */
 #include "base/memory.h"
+#include "sim/passes/cpu/body_forces.h"
 #include "sim/passes/cpu/search_parts.h"
 
 #include <math.h>
@@ -20,24 +21,30 @@ static uint32_t entry_of(const sb_vicinity *v, uint32_t candidate)
     return v->run[run].begin + candidate - before;
 }
 
-static void set_edge(sb_edge_pair *e, sb_f4 own, sb_f4 other)
+/* The vectors of a pair at an edge, kg/m^4; see sb_edge_pair. */
+typedef struct edge_vectors {
+    sb_f4 own, other, head;
+} edge_vectors;
+
+static void set_edge(sb_edge_pair *e, edge_vectors v)
 {
-    memcpy(e->own, &own, sizeof e->own);
-    memcpy(e->other, &other, sizeof e->other);
+    memcpy(e->own, &v.own, sizeof e->own);
+    memcpy(e->other, &v.other, sizeof e->other);
+    memcpy(e->head, &v.head, sizeof e->head);
 }
 
-/* Adds a pair at an edge: vectors in kg/m^4. Pairs with the same particle by facets of the same body are one: where
-   facets bend little they nearly cancel. */
+/* Adds a pair at an edge. Pairs with the same particle by facets of the same body are one: where facets bend little
+   they nearly cancel. */
 static void add_edge(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, uint32_t self, uint32_t source,
-                     uint32_t facet, sb_f4 own, sb_f4 other, sb_reflections *r)
+                     uint32_t facet, edge_vectors v, sb_reflections *r)
 {
     const sb_near_facet *f = &w->images.near.facet[facet];
-    r->flux += sb_sum3((own + other) * f->velocity);
+    r->flux += sb_sum3((v.own + v.other) * f->velocity);
     size_t *slot = source == self ? &w->edge_own : &w->edge_of[w->hit_of[source]];
     if (*slot >= w->edges && *slot < lists->edges && lists->edge[*slot].entry == source &&
         sb_mirror_body(sim, lists->edge[*slot].mirror) == sb_mirror_body(sim, f->mirror)) {
         sb_edge_pair *e = &lists->edge[*slot];
-        set_edge(e, sb_edge_own(e) + own, sb_edge_other(e) + other);
+        set_edge(e, (edge_vectors){sb_edge_own(e) + v.own, sb_edge_other(e) + v.other, sb_edge_head(e) + v.head});
         return;
     }
     if (sb_grow((void **)&lists->edge, &lists->capacity_edge, lists->edges + 1, sizeof *lists->edge) != 0) {
@@ -46,7 +53,7 @@ static void add_edge(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, 
     }
     *slot = lists->edges;
     lists->edge[lists->edges] = (sb_edge_pair){.entry = source, .mirror = f->mirror};
-    set_edge(&lists->edge[lists->edges++], own, other);
+    set_edge(&lists->edge[lists->edges++], v);
 }
 
 /* Forgets the pairs at edges of the last particle. */
@@ -66,6 +73,7 @@ static void close_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *list
         const sb_f4 own = sb_edge_own(&e), other = sb_edge_other(&e);
         if (sb_sum3(own * own) + sb_sum3(other * other) < least * least) continue;
         r->gradient += own;
+        r->push -= sb_edge_head(&e) * sb_splat(sb_hydrostatic(sim));
         const uint32_t hit = w->hit_of[e.entry];
         if (e.entry == self)
             r->doubled += other;
@@ -91,8 +99,9 @@ SB_APART void add_edges(const sb_sim *sim, sb_searcher *w, sb_list_builder *list
         if (h->root[s->hit] == 0) continue;
         const uint32_t candidate = h->candidate[s->hit];
         const uint32_t source = s->direct ? candidate : w->images.source[candidate - w->vicinity.count];
-        const sb_f4 whole = sb_splat(scale * h->value[s->hit]);
-        add_edge(sim, w, lists, self, source, s->facet, s->own * whole, s->other * whole, r);
+        const sb_f4 whole = sb_splat(scale * h->value[s->hit]), own = s->own * whole;
+        const float fall = s->direct ? 0 : w->vicinity.place[source][2] - w->vicinity.place[candidate][2];
+        add_edge(sim, w, lists, self, source, s->facet, (edge_vectors){own, s->other * whole, own * sb_splat(fall)}, r);
     }
 }
 
@@ -112,7 +121,7 @@ static void repel(const sb_sim *sim, sb_searcher *w, sb_list_builder *lists, uin
         const sb_f4 push = (sb_f4){h->x[k], h->y[k], h->z[k], 0} * sb_splat(slope);
         h->value[k] += 0.5f * top * left * left;
         r->repulsion += push;
-        add_edge(sim, w, lists, self, self, path - 1, push, push, r);
+        add_edge(sim, w, lists, self, self, path - 1, (edge_vectors){push, push, {0}}, r);
     }
 }
 

@@ -10,10 +10,16 @@ void sb_pulls_find(const sb_sim *sim, const sb_group *group, sb_pull *pulls)
         const sb_image *image = &sim->groups.image[group->image + k];
         const sb_f4 from = sb_offset(sim->state.position[image->from], group->corner);
         const sb_f4 plane = sb_path_plane(planes, image->path);
-        pulls[k].q = sim->work.unknown[sb_entry_owner(sim, image->from)] + hydrostatic * (from[2] - image->at[2]);
+        pulls[k].head = hydrostatic * (from[2] - image->at[2]);
+        pulls[k].q = sim->work.unknown[sb_entry_owner(sim, image->from)] + pulls[k].head;
         pulls[k].above = sb_sum3(plane * from) - plane[3];
         pulls[k].plane = image->path > SB_REFLECTION_MASK ? SB_PLANES_SEVERAL : image->path - 1;
     }
+}
+
+static sb_f4 place_of(const sb_image *image)
+{
+    return (sb_f4){image->at[0], image->at[1], image->at[2], 0};
 }
 
 /* Adds a pair with an image by several reflections. weight: its slope, 1/s^2 for an offset in quanta and q. */
@@ -23,15 +29,16 @@ static void react_several(const sb_sim *sim, const sb_group *group, const sb_ima
     const sb_group_plane *planes = sim->groups.plane + group->plane;
     const sb_f4 self = sb_offset(sim->state.position[i], group->corner);
     const sb_f4 from = sb_offset(sim->state.position[image->from], group->corner);
-    const sb_f4 place = {image->at[0], image->at[1], image->at[2], 0};
+    const sb_f4 place = place_of(image);
     const float q = sim->work.unknown[i] + sim->work.unknown[sb_entry_owner(sim, image->from)];
     const sb_f4 pull = (self - place) * sb_splat(-slope);
     sb_reactions_reflected(reactions, planes, image->path, pull * sb_splat(q));
-    sb_reactions_normal(reactions, planes, image->path, pull * sb_splat(sb_hydrostatic(sim) * (from[2] - place[2])));
+    sb_reactions_whole(reactions, planes, image->path, pull * sb_splat(sb_hydrostatic(sim) * (from[2] - place[2])));
 }
 
 /* The force of a pair with an image by one reflection is along the plane's normal the sum of both ends' distances
-   before the plane, times a factor. */
+   before the plane, times a factor. Across it the plane takes the part by the head only; the other acts between the two
+   particles. */
 SB_APART void react_reflected(const sb_sim *sim, const sb_group *group, uint32_t records, const sb_pull *pulls,
                               size_t i, sb_reactions *reactions)
 {
@@ -48,10 +55,14 @@ SB_APART void react_reflected(const sb_sim *sim, const sb_group *group, uint32_t
             if (slope[k] == 0) continue;
             const uint32_t image = lists->four[f].place[k] / SB_PLACE_STEP - records;
             const sb_pull *pull = &pulls[image];
-            if (pull->plane != SB_PLANES_SEVERAL)
-                sb_reaction(reactions, pull->plane, slope[k] * (own + pull->q) * (above[pull->plane] + pull->above));
-            else
+            if (pull->plane == SB_PLANES_SEVERAL) {
                 react_several(sim, group, &sim->groups.image[group->image + image], slope[k], i, reactions);
+                continue;
+            }
+            sb_reaction(reactions, pull->plane, slope[k] * (own + pull->q) * (above[pull->plane] + pull->above));
+            if (pull->head == 0) continue;
+            const sb_f4 place = place_of(&sim->groups.image[group->image + image]);
+            sb_reaction_across(reactions, pull->plane, (place - self) * sb_splat(slope[k] * pull->head));
         }
     }
 }
@@ -59,15 +70,16 @@ SB_APART void react_reflected(const sb_sim *sim, const sb_group *group, uint32_t
 void sb_react_images(const sb_sim *sim, const sb_group *group, uint32_t records, const sb_pull *pulls, size_t i,
                      sb_reactions *reactions, sb_body_forces *to)
 {
-    const double mass = (double)sim->constant.mass;
+    const double mass = (double)sim->constant.mass, hydrostatic = (double)sb_hydrostatic(sim);
     const sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
     react_reflected(sim, group, records, pulls, i, reactions);
     sb_reactions_close(sim, sim->groups.plane + group->plane, at, reactions, to);
     for (uint32_t k = 0; k < sim->work.edge_pairs.count[i]; k++) {
         const sb_edge_pair *e = &sim->work.edge_pairs.pair[sim->work.edge_pairs.first[i] + k];
         const double q = (double)sim->work.unknown[i] + (double)sim->work.unknown[sb_entry_owner(sim, e->entry)];
-        const sb_vec3 force =
-            sb_vec(mass * q * (double)e->own[0], mass * q * (double)e->own[1], mass * q * (double)e->own[2]);
-        sb_body_forces_of_facet(sim, to, e->mirror, at, force, (sb_vec3){0});
+        const sb_vec3 pull = sb_vec(q * (double)e->own[0] + hydrostatic * (double)e->head[0],
+                                    q * (double)e->own[1] + hydrostatic * (double)e->head[1],
+                                    q * (double)e->own[2] + hydrostatic * (double)e->head[2]);
+        sb_body_forces_of_facet(sim, to, e->mirror, at, sb_scale(pull, mass), (sb_vec3){0});
     }
 }

@@ -9,7 +9,7 @@
 
 /* An image for the reactions to the pressure. */
 typedef struct sb_pull {
-    float q;        /* of the image: the original's, and what it has more at rest (sb_hydrostatic) */
+    float q, head;  /* of the image: the original's and head, what it has more at rest (sb_hydrostatic) */
     float above;    /* of the original before the plane, quanta */
     uint32_t plane; /* of the group, or SB_PLANES_SEVERAL: reflected more than once */
 } sb_pull;
@@ -18,7 +18,8 @@ typedef struct sb_pull {
 void sb_pulls_find(const sb_sim *sim, const sb_group *group, sb_pull *pulls);
 
 /* Adds the forces on bodies by pairs of particle i with images and by its pairs at edges. Each reflection of a path
-   takes the normal part of the pair's force; what remains acts between the two particles. records: sb_around_count. */
+   takes the normal part of the pair's force; what remains acts between the two particles, or by the head of the image
+   on the last facet. records: sb_around_count. */
 void sb_react_images(const sb_sim *sim, const sb_group *group, uint32_t records, const sb_pull *pulls, size_t i,
                      sb_reactions *reactions, sb_body_forces *to);
 

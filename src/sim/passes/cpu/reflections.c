@@ -38,20 +38,6 @@ static sb_f4 image_velocity(const sb_near *near, uint32_t path)
     return v;
 }
 
-/* The parts of a vector along the normals of a path's planes; see sb_reactions_normal. */
-SB_INLINE sb_f4 normal_part(const sb_near *near, uint32_t path, sb_f4 a)
-{
-    sb_f4 all = {0};
-    for (; path; path >>= SB_REFLECTION_BITS) {
-        const sb_f4 plane = near->facet[(path & SB_REFLECTION_MASK) - 1].plane;
-        const float along = sb_sum3(plane * a);
-        const sb_f4 part = plane * (sb_f4){along, along, along, 0};
-        a -= part;
-        all += part;
-    }
-    return all;
-}
-
 /* Removes the hits whose paths have no weight, and weighs the others. Returns the sum of their values. */
 SB_INLINE float take_weights(sb_searcher *w, uint32_t pad)
 {
@@ -91,21 +77,11 @@ static sb_f4 reflect_back(const sb_near *near, uint32_t path, sb_f4 v)
 SB_INLINE void reflect_self(sb_searcher *w, sb_f4 self)
 {
     const sb_near *near = &w->images.near;
-    for (size_t a = 0; a < near->count; a++) w->own[a] = (sb_own_image){sb_reflect(near->facet[a].plane, self), 0, 0};
+    for (size_t a = 0; a < near->count; a++) w->own[a] = sb_reflect(near->facet[a].plane, self);
 }
 
-/* Adds a hit by several reflections. Returns the force on the original by the pressure of the particle. */
-SB_APART sb_f4 several_reflections(const sb_sim *sim, const sb_searcher *w, uint32_t image, float fall, sb_f4 gradient,
-                                   sb_reflections *r)
-{
-    const uint32_t path = w->images.path[image];
-    if (fall != 0) r->push -= normal_part(&w->images.near, path, gradient * sb_splat(sb_hydrostatic(sim) * fall));
-    return reflect_back(&w->images.near, path, -gradient);
-}
-
-/* Adds the hits of images. The forces on neighbours by the pressure of i are summed by neighbour. By one reflection at
-   a plane with the normal n, at distances h before it, n . (x_i - x_image) is h_i + h_j, the image is 2 n_z h_j lower
-   than its original, and the vector to x_i reflected back to the original is R x_i - x_j. */
+/* Adds the hits of images. The forces on neighbours by the pressure of i are summed by neighbour. By one reflection R,
+   the vector to x_i reflected back to the original is R x_i - x_j. */
 SB_INLINE void reflected_sums(const sb_sim *sim, sb_searcher *w, sb_f4 self_place, sb_reflections *r)
 {
     const sb_hits *h = &w->reflected;
@@ -113,34 +89,23 @@ SB_INLINE void reflected_sums(const sb_sim *sim, sb_searcher *w, sb_f4 self_plac
     const sb_f4 *place = w->vicinity.place;
     const float unit = sim->work.pairs.unit;
     const uint32_t self = (uint32_t)w->hits.count;
-    sb_f4 sum = r->gradient, doubled = r->doubled;
+    sb_f4 sum = r->gradient, doubled = r->doubled, push = {0};
     reflect_self(w, self_place);
     for (size_t k = 0; k < h->count; k++) {
         const uint32_t image = h->candidate[k] - (uint32_t)w->vicinity.count, hit = w->original[k];
         const uint32_t source = w->images.source[image], path = w->images.path[image];
         const float slope = h->slope[k] * unit;
         const sb_f4 gradient = (self_place - place[h->candidate[k]]) * sb_splat(slope);
-        sb_f4 force;
+        const sb_f4 force = path <= SB_REFLECTION_MASK ? (place[source] - w->own[path - 1]) * sb_splat(slope)
+                                                       : reflect_back(near, path, -gradient);
         sum += gradient;
-        if (path <= SB_REFLECTION_MASK) {
-            sb_own_image *own = &w->own[path - 1];
-            const float above = w->images.above[image], part = slope * above;
-            own->once += part;
-            own->twice += part * above;
-            force = (place[source] - own->place) * sb_splat(slope);
-        } else
-            force = several_reflections(sim, w, image, place[source][2] - place[h->candidate[k]][2], gradient, r);
+        push += gradient * sb_splat(place[source][2] - place[h->candidate[k]][2]);
         if (hit == self)
             doubled += gradient;
         else
             sb_add_force(w, hit, force);
     }
-    for (size_t a = 0; a < near->count; a++) {
-        const sb_f4 plane = near->facet[a].plane;
-        const float above = sb_before_facet(&near->facet[a], self_place);
-        const float along = 2 * plane[2] * sb_hydrostatic(sim) * (above * w->own[a].once + w->own[a].twice);
-        r->push -= plane * (sb_f4){along, along, along, 0};
-    }
+    r->push -= push * sb_splat(sb_hydrostatic(sim));
     r->gradient = sum;
     r->doubled = doubled;
 }

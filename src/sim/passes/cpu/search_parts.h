@@ -7,13 +7,6 @@
 #include "sim/passes/cpu/searcher.h"
 #include "sim/passes/cpu/wall_finder.h"
 
-/* The present particle's image by one reflection at a facet, and sums over its hits of such images: of the slopes times
-   the originals' distances before the facet, and times their squares. */
-typedef struct sb_own_image {
-    sb_f4 place;
-    float once, twice;
-} sb_own_image;
-
 typedef struct sb_searcher {
     sb_vicinity vicinity;
     sb_hits hits, reflected;
@@ -23,7 +16,7 @@ typedef struct sb_searcher {
     uint32_t original[SB_HITS_MAX + SB_HIT_SPARE]; /* of each hit of images: the hit of the original */
     size_t own_images; /* hits of images of the particle itself, before weights: own_image[] */
     uint32_t own_image[SB_HITS_MAX + SB_HIT_SPARE];
-    sb_own_image own[SB_NEAR_MAX];                               /* by facet */
+    sb_f4 own[SB_NEAR_MAX];                                      /* its images by one reflection, by facet */
     size_t edges, edge_own, edge_of[SB_HITS_MAX + SB_HIT_SPARE]; /* pairs at edges of the present particle: the first,
                                                                     and those with itself and with each hit */
     uint32_t hit_of[SB_AROUND_MAX]; /* candidate -> its hit; valid where that hit is this candidate */

@@ -56,9 +56,10 @@ void sb_plain_reflect(const sb_sim *sim, const sb_indices *indices, uint32_t pat
     }
 }
 
-/* The reactions to the hydrostatic part of an image's pressure: each plane takes the normal part of what is left. */
-static void take_normal(const sb_sim *sim, const sb_indices *indices, uint32_t path, sb_vec3 at, sb_vec3 a,
-                        double *force)
+/* The reactions to the hydrostatic part of an image's pressure: each plane takes the normal part of what is left, the
+   last one the rest. */
+static void take_whole(const sb_sim *sim, const sb_indices *indices, uint32_t path, sb_vec3 at, sb_vec3 a,
+                       double *force)
 {
     const sb_group_plane *plane[SB_REFLECTIONS_MAX];
     const int count = sb_path_planes(indices, path, plane);
@@ -68,6 +69,9 @@ static void take_normal(const sb_sim *sim, const sb_indices *indices, uint32_t p
         push_plane(sim, plane[k], at, -along, force);
         a = sb_madd(a, -along, n);
     }
+    const uint32_t mirror = plane[count - 1]->mirror;
+    act_on(sim, sb_mirror_body(sim, mirror), sb_add(at, sb_mirror_shift(sim, mirror)),
+           sb_scale(a, -(double)sim->constant.mass), (sb_vec3){0}, force);
 }
 
 static double unknown_of(const sb_sim *sim, uint32_t entry)
@@ -87,13 +91,15 @@ static void react_images(const sb_sim *sim, const sb_indices *around, size_t i, 
         const double head = from.z - sb_image_place(around, p.path, from).z;
         sb_plain_reflect(sim, around, p.path, at, sb_scale(p.offset, -p.slope * (own + unknown_of(sim, p.other))),
                          force);
-        take_normal(sim, around, p.path, at, sb_scale(p.offset, -p.slope * hydrostatic * head), force);
+        take_whole(sim, around, p.path, at, sb_scale(p.offset, -p.slope * hydrostatic * head), force);
     }
     for (size_t k = 0; k < sb_edge_count(sim, i); k++) {
         const sb_edge_pair *e = sb_edge_at(sim, i, k);
         const double q = own + unknown_of(sim, e->entry);
+        const sb_vec3 pull =
+            sb_madd(sb_scale(sb_vector_of(sb_edge_own(e)), q), hydrostatic, sb_vector_of(sb_edge_head(e)));
         act_on(sim, sb_mirror_body(sim, e->mirror), sb_add(at, sb_mirror_shift(sim, e->mirror)),
-               sb_scale(sb_vector_of(sb_edge_own(e)), (double)sim->constant.mass * q), (sb_vec3){0}, force);
+               sb_scale(pull, (double)sim->constant.mass), (sb_vec3){0}, force);
     }
 }
 
