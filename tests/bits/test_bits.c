@@ -25,13 +25,13 @@ static const struct {
     uint64_t fused, plain;
 } scenes[] = {
     {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "default", "resolution=0.035",
-     "numerics.settle_steps=20", 0x8cf8e04b4b8b8af8, 0x00590c19766d225e},
+     "numerics.settle_steps=20", 0x0cc0d90c7fd47ae9, 0xad9d256f99193037},
     {"column with boundary particles", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "paper",
      "resolution=0.035", "numerics.settle_steps=20", 0x2f5a2af1e0181126, 0x7d2e545b3b99ba4a},
     {"column with explicit steps", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "wen", "resolution=0.035",
      "numerics.settle_steps=0", 0xc2cb2e4487cd2b92, 0x1f6b1b16aeec0e2c},
     {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "default", "resolution=20", "numerics.settle_steps=20",
-     0x446c8d40da403c9b, 0xe36c3a35b1059485},
+     0x4d5ccb2027f9cb63, 0x02dcfcc0a9006035},
 };
 
 static uint64_t count_steps(void)

@@ -9,7 +9,7 @@
    that the sweeps of one solve damp well. A polynomial of degree n damps modes down to about 1/n^2 of the upper end, so
    that the value is SHARE/n^2 with n the number of sweeps of the step before (docs/decisions/0017). START: used while n
    is not known. */
-static const double START = 0.1, SHARE = 8, SMALLEST_MIN = 0.06, SMALLEST_MAX = 0.2;
+static const double START = 0.1, SHARE = 8, SMALLEST_MIN = 0.02, SMALLEST_MAX = 0.2;
 
 /* Coefficients of the recurrence [Golub and Varga 1961]. */
 typedef struct polynomial {
