@@ -14,7 +14,7 @@ static const double RADIUS = 0.23, AMPLITUDE = 0.03, PERIOD = 1.2, ROW = 0.01;
    boundary elements. */
 static const double ADDED_MASS = 0.824;
 
-static const char text[] = "dimensions: 2\nresolution: 0.03\nduration: 10\n"
+static const char text[] = "dimensions: 2\nresolution: 0.05\nduration: 10\n"
                            "domain: {min: [-3, 0], max: [3, 2.2]}\n"
                            "water: {level: 1.6, seed: [-2.8, 0.3]}\n"
                            "bodies:\n  - {name: circle, shape: mesh, file: circle.obj}\n"
@@ -61,14 +61,16 @@ static void write_motion(void)
 
 /* First harmonic of the force over -(x'' of the first harmonic) over the mass of the water displaced, from the third
    period to the fifth: added mass - i damping/w. */
-static double complex load_on_circle(unsigned seed)
+static double complex load_on_circle(const char *resolution, unsigned seed)
 {
     const double omega = 2 * M_PI / PERIOD, from = 2 * PERIOD, lasts = 3 * PERIOD;
     sb_error error = {0};
     sb_scene scene;
     sb_model model;
     sb_sim *sim;
-    if (sb_scene_read(SB_BINARY_DIR "/circle.yaml", NULL, NULL, 0, &scene, &error) != SB_OK) fail_msg("%s", error.text);
+    const sb_override spacing = {"resolution", resolution};
+    if (sb_scene_read(SB_BINARY_DIR "/circle.yaml", NULL, &spacing, 1, &scene, &error) != SB_OK)
+        fail_msg("%s", error.text);
     scene.numerics.seed = seed;
     if (sb_model_build(&scene, &model, &error) != SB_OK || sb_sim_create(&scene, &model, NULL, &sim, &error) != SB_OK ||
         sb_sim_settle(sim, &error) != SB_OK)
@@ -88,20 +90,27 @@ static double complex load_on_circle(unsigned seed)
     return -force / acceleration / (1000 * M_PI * RADIUS * RADIUS);
 }
 
+/* At 4.6 spacings over the radius the added mass is up to 12 % low (docs/decisions/0104), at 7.7 within 4 %. */
 static void a_circle_has_the_added_mass_of_potential_flow(void **state)
 {
+    static const struct {
+        const char *resolution;
+        double off, damping;
+    } bounds[] = {{"0.05", 0.15, 0.5}, {"0.03", 0.1, 0.4}};
     (void)state;
     write_mesh();
     write_motion();
     FILE *file = open_file(SB_BINARY_DIR "/circle.yaml");
     fputs(text, file);
     assert_int_equal(fclose(file), 0);
-    for (unsigned seed = 1; seed <= SEEDS; seed++) {
-        const double complex load = load_on_circle(seed);
-        printf("  seed %u: added mass %.3f (%.3f), damping %.3f\n", seed, creal(load), ADDED_MASS, -cimag(load));
-        assert_true(fabs(creal(load) - ADDED_MASS) < 0.1 * ADDED_MASS);
-        assert_true(-cimag(load) > 0 && -cimag(load) < 0.4);
-    }
+    for (size_t k = 0; k < sizeof bounds / sizeof *bounds; k++)
+        for (unsigned seed = 1; seed <= SEEDS; seed++) {
+            const double complex load = load_on_circle(bounds[k].resolution, seed);
+            printf("  %s m, seed %u: added mass %.3f (%.3f), damping %.3f\n", bounds[k].resolution, seed, creal(load),
+                   ADDED_MASS, -cimag(load));
+            assert_true(fabs(creal(load) - ADDED_MASS) < bounds[k].off * ADDED_MASS);
+            assert_true(-cimag(load) > 0 && -cimag(load) < bounds[k].damping);
+        }
 }
 
 int main(void)
