@@ -8,7 +8,7 @@
 #define SB_CHECKPOINT_SCENE "scene"
 #define SB_CHECKPOINT_RUN "run"
 
-enum { SB_CHECKPOINT_FORMAT = 18 };
+enum { SB_CHECKPOINT_FORMAT = 19 };
 
 /* Lists the steps of the checkpoints in the folder, newest first; free with sb_free. A missing folder has none. */
 sb_status sb_checkpoint_list(const run *r, uint64_t **steps, size_t *count, sb_error *error);

@@ -42,7 +42,7 @@ static void damaged_checkpoints_are_skipped(void **state)
     resumes_from_the_previous_one(newest, bytes, length, "damaged: the checksum of section");
     bytes[length / 2] ^= 4;
     bytes[8] ^= 1;
-    resumes_from_the_previous_one(newest, bytes, length, "version 19 of the format, expected 18");
+    resumes_from_the_previous_one(newest, bytes, length, "version 18 of the format, expected 19");
     sb_free(bytes);
 }
 

@@ -57,9 +57,10 @@ static void take_progress(sb_archive_in *in, sb_state *s, sb_step_report *r)
 static void put_settle(sb_archive_out *out, const sb_settle *settle)
 {
     sb_put_flag(out, settle->under_way);
+    sb_put_real(out, settle->done);
     if (!settle->under_way) return;
-    const int counts[] = {settle->done, settle->most, settle->calm};
-    for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) sb_put_real(out, counts[k]);
+    sb_put_real(out, settle->most);
+    sb_put_real(out, settle->calm);
     sb_put_real(out, settle->kinetic);
 }
 
@@ -75,8 +76,8 @@ static int take_steps(sb_archive_in *in)
 static void take_settle(sb_archive_in *in, const sb_scene *scene, sb_settle *settle)
 {
     *settle = (sb_settle){.under_way = sb_take_flag(in)};
-    if (!settle->under_way) return;
     settle->done = take_steps(in);
+    if (!settle->under_way) return;
     settle->most = take_steps(in);
     settle->calm = take_steps(in);
     settle->kinetic = sb_take_real(in);

@@ -9,8 +9,10 @@
 
 enum { BEFORE = 25, AFTER = 25 };
 
-/* Compares an uninterrupted run on one thread with runs that are resumed half way on several numbers of threads. */
-static void check(const tank *t, const char *name)
+/* Compares an uninterrupted run on one thread with runs that are resumed after some steps on several numbers of
+ * threads.
+ */
+static void check_from(const tank *t, int steps, const char *name)
 {
     static const int threads[] = {1, 2, 3, 8};
     const int before = omp_get_max_threads();
@@ -18,7 +20,7 @@ static void check(const tank *t, const char *name)
     sb_error error = {0};
     omp_set_num_threads(1);
     sb_sim *sim = tank_settled(t);
-    assert_int_equal(tank_steps(sim, BEFORE), 0);
+    assert_int_equal(tank_steps(sim, steps), 0);
     const uint64_t half = sb_sim_hash(sim);
     tank_save(sim, &out);
     assert_true(sb_sim_hash(sim) == half);
@@ -35,7 +37,7 @@ static void check(const tank *t, const char *name)
         assert_int_equal(tank_steps(sim, AFTER), 0);
         if (sb_sim_hash(sim) != end) fail_msg("%s: %d threads end with another state", name, threads[k]);
         const sb_step_report *report = sb_sim_report(sim);
-        assert_int_equal(report->step, BEFORE + AFTER);
+        assert_int_equal(report->step, steps + AFTER);
         assert_int_equal(report->iterations, last.iterations);
         assert_true(report->time_step == last.time_step && report->error_mean == last.error_mean);
         assert_int_equal(report->left_domain, last.left_domain);
@@ -43,6 +45,22 @@ static void check(const tank *t, const char *name)
     }
     omp_set_num_threads(before);
     sb_archive_out_free(&out);
+}
+
+static void check(const tank *t, const char *name)
+{
+    check_from(t, BEFORE, name);
+}
+
+/* The first step differs from the others: means over time begin at the state of settled water. */
+static void settled_water_before_its_first_step(void **state)
+{
+    (void)state;
+    tank t;
+    tank_make(&t, 2, 1.0 / 40, sb_vec(2, 0, 1.5), 1, 1.1, 0.1);
+    assert_true(t.scene.numerics.stress_memory > 0);
+    check_from(&t, 0, "before the first step");
+    tank_free(&t);
 }
 
 /* Each solver with the default preset, and `paper` with its own. */
@@ -286,6 +304,7 @@ int main(void)
         in_both_presets(a_paddle_in_motion_and_at_rest),
         in_both_presets(a_periodic_slab),
         in_both_presets(water_that_leaves),
+        cmocka_unit_test(settled_water_before_its_first_step),
         cmocka_unit_test(settling_is_resumed),
         cmocka_unit_test(settling_is_not_saved_at_its_end),
         cmocka_unit_test(another_model_is_refused),
