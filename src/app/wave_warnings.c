@@ -101,6 +101,33 @@ static void warn_of_distance(const sb_scene *scene, const sb_wavemaker_use *make
     visit(context, text);
 }
 
+static void warn_of_start(const sb_scene *scene, const sb_wavemaker_use *maker, sb_warning_visit *visit, void *context)
+{
+    char text[300];
+    if (isinf(maker->law.start) || maker->law.start < scene->duration) return;
+    snprintf(
+        text, sizeof text,
+        "wave maker \"%s\": it begins at %g s, and the run ends at %g s: it never moves; expected an earlier start "
+        "or a longer duration",
+        maker->name, maker->law.start, scene->duration);
+    visit(context, text);
+}
+
+/* A motion grows over the ramp and falls over the ramp before its end. */
+static void warn_of_ramp(const sb_wavemaker_use *maker, sb_warning_visit *visit, void *context)
+{
+    char text[400];
+    const sb_wavemaker_parameters *law = &maker->law;
+    if (!(law->kind->needs & SB_WM_TRAIN) || law->lasts >= 2 * law->ramp) return;
+    const double s = 0.5 * law->lasts / law->ramp;
+    snprintf(
+        text, sizeof text,
+        "wave maker \"%s\": its motion lasts %g s, with a ramp of %g s at the start and at the end: it reaches %.2g %% "
+        "of the full motion; expected lasts of more than %g s, or a shorter ramp",
+        maker->name, law->lasts, law->ramp, 100 * s * s * (3 - 2 * s), 2 * law->ramp);
+    visit(context, text);
+}
+
 sb_status sb_wave_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context, sb_error *error)
 {
     sb_status status = SB_OK;
@@ -108,6 +135,8 @@ sb_status sb_wave_warnings(const sb_scene *scene, sb_warning_visit *visit, void 
         const sb_wavemaker_use *maker = &scene->wavemakers[w];
         const unsigned needs = maker->law.kind->needs;
         sb_paddle paddle = {0};
+        warn_of_start(scene, maker, visit, context);
+        warn_of_ramp(maker, visit, context);
         if (needs & SB_WM_DISTANCE) warn_of_distance(scene, maker, visit, context);
         if (!(needs & SB_WM_FOCUS)) continue;
         status = sb_paddle_create(&maker->law, &paddle, error);

@@ -1,4 +1,5 @@
-/* Warns of waves to order that do not come to the place where they are wanted, for `check` and `run`. */
+/* Warns of waves to order that do not come to the place where they are wanted, or are never made, for `check` and
+   `run`. */
 #ifndef SB_APP_WAVE_WARNINGS_H
 #define SB_APP_WAVE_WARNINGS_H
 

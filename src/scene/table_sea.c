@@ -36,7 +36,7 @@ static unsigned variant(const void *item, const sb_yaml *map)
 /* clang-format off */
 static const sb_key component_keys[] = {
     {.name = "amplitude", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_given_component, amplitude), .unit = "m",
-     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_REQUIRED, .doc = "Amplitude, half of the height."},
+     .min = 0, .max = HUGE_VAL, .flags = SB_KEY_REQUIRED | SB_KEY_ABOVE, .doc = "Amplitude, half of the height."},
     {.name = "period", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_given_component, period), .unit = "s",
      .min = 0, .max = HUGE_VAL, .flags = SB_KEY_REQUIRED | SB_KEY_ABOVE, .doc = "Period."},
     {.name = "direction", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_given_component, direction), .unit = "deg",

@@ -200,8 +200,7 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_wavemaker_use *use = item;
     const sb_scene *scene = reader->scene;
-    if (!sb_scene_may_have_body(scene, use->body))
-        return sb_reader_fail(reader, map, "body", "no body is named %s, expected the name of a body", use->body);
+    if (!sb_scene_may_have_body(scene, use->body)) return sb_reader_no_body(reader, map, "body", use->body);
     for (const sb_wavemaker_use *other = scene->wavemakers; other < use; other++)
         if (strcmp(other->body, use->body) == 0)
             return sb_reader_fail(reader, map, "body", "%s is already moved by %s, expected one wave maker per body",

@@ -36,22 +36,15 @@ static double first_height(const table *sea, const sb_scene *scene)
 
 /* A wrong datum puts the first surface far from the still level. Half the depth below it is no wave that a run can
    begin with. */
-static sb_status check_datum(const table *sea, const sb_scene *scene, sb_sea_notes *notes, sb_error *error)
+static sb_status check_datum(const table *sea, const sb_scene *scene, sb_error *error)
 {
     const double away = first_height(sea, scene), depth = scene->given.level - scene->domain.min.z;
-    if (!(fabs(away) <= 0.5 * depth))
-        return sb_fail(
-            error, SB_BAD_INPUT,
-            "%.500s: with sea.datum %g m the surface begins at %g m, %g m from the still level of %g m, expected "
-            "at most %g m",
-            scene->given.file, sea->datum, scene->given.level + away, fabs(away), scene->given.level, 0.5 * depth);
-    if (fabs(away) > 2 * scene->resolution)
-        snprintf(
-            notes->warning, sizeof notes->warning,
-            "sea.datum: the surface begins %g m %s the still level of %g m: a bore enters at once; expected another "
-            "datum, or another start",
-            fabs(away), away < 0 ? "below" : "above", scene->given.level);
-    return SB_OK;
+    if (fabs(away) <= 0.5 * depth) return SB_OK;
+    return sb_fail(
+        error, SB_BAD_INPUT,
+        "%.500s: with sea.datum %g m the surface begins at %g m, %g m from the still level of %g m, expected "
+        "at most %g m",
+        scene->given.file, sea->datum, scene->given.level + away, fabs(away), scene->given.level, 0.5 * depth);
 }
 
 static sb_status fill(table *made, const sb_scene *scene, sb_sea_notes *notes, sb_error *error)
@@ -69,7 +62,7 @@ static sb_status fill(table *made, const sb_scene *scene, sb_sea_notes *notes, s
     if (status == SB_OK) status = sb_line_check(&made->series, scene, given->file, error);
     if (status == SB_OK) status = sb_line_finish(&made->series, error);
     if (status == SB_OK) sb_line_doubt(&made->series, scene, notes->warning, sizeof notes->warning);
-    if (status == SB_OK) status = check_datum(made, scene, notes, error);
+    if (status == SB_OK) status = check_datum(made, scene, error);
     const size_t count = made->series.count;
     snprintf(notes->about, sizeof notes->about, "a table of %zu point%s, datum %g m", count,
              count == 1 ? ", equal along the side" : "s", made->datum);

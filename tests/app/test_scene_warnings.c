@@ -100,6 +100,11 @@ static const struct {
      "wave maker \"w\": its distance of 800 m is outside of the domain", "expected a shorter distance"},
     {WAVES_BY("kind: focused, height: 0.1, depth: 0.5, period: 1.5, distance: 4, focus: 0.1"),
      "wave maker \"w\": its focus at 0.1 s is too early", "expected a focus of at least "},
+    {WAVES_BY("kind: regular, height: 0.1, depth: 0.5, period: 1.5, lasts: 3"),
+     "wave maker \"w\": its motion lasts 3 s, with a ramp of 3 s at the start and at the end: it reaches 50 %",
+     "expected lasts of more than 6 s, or a shorter ramp"},
+    {WAVES_BY("kind: regular, height: 0.1, depth: 0.5, period: 1.5, start: 9"),
+     "wave maker \"w\": it begins at 9 s, and the run ends at 0.02 s: it never moves", "expected an earlier start"},
     {"title: t\ndimensions: 2\nduration: 0.02\noutput: {plots: false}\ndomain: {min: [0, -1], max: [40, 1]}\n"
      "offshore: {cell: 0.2, level: 0, wave: {kind: solitary, height: 0.1, depth: 1, position: -4}}\n",
      "offshore.wave.position: the crest at x = -4 m begins outside of the grid", "expected a place from 0 to 40 m"},

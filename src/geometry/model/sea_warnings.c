@@ -232,25 +232,27 @@ sb_status sb_model_sea_warn(const sb_scene *scene, sb_sea_source *sea, sb_model 
 {
     const bool still = scene->wave.kind == SB_INITIAL_NONE && scene->box_count == 0;
     const farthest first = still ? first_height(scene, model, sea) : (farthest){0};
-    if (sb_sea_warning(sea)) return sb_model_warn(model, error, "%s", sb_sea_warning(sea));
-    if (fabs(first.height) > model->spacing) return warn_first(scene, &first, model, error);
+    sb_status status = SB_OK;
+    if (sb_sea_warning(sea)) status = sb_model_warn(model, error, "%s", sb_sea_warning(sea));
+    if (status == SB_OK && fabs(first.height) > model->spacing) status = warn_first(scene, &first, model, error);
+    if (status != SB_OK) return status;
     switch (scene->given.source) {
     case SB_GIVEN_NONE:
-        return SB_OK;
-    case SB_GIVEN_OFFSHORE: {
-        const sb_status status = still ? warn_within(scene, sb_sea_grid(sea), model, error) : SB_OK;
-        return status == SB_OK ? warn_other_bed(scene, sb_sea_grid(sea), model, error) : status;
-    }
+        break;
+    case SB_GIVEN_OFFSHORE:
+        if (still && !first.dry) status = warn_within(scene, sb_sea_grid(sea), model, error);
+        if (status == SB_OK) status = warn_other_bed(scene, sb_sea_grid(sea), model, error);
+        break;
     case SB_GIVEN_TABLE:
-    case SB_GIVEN_RECORD: {
-        const sb_status status = warn_opposite(scene, model, error);
-        return status == SB_OK ? warn_dry(scene, sea, model, error) : status;
-    }
-    case SB_GIVEN_THEORY: {
-        sb_status status = warn_depth(scene, model, error);
+    case SB_GIVEN_RECORD:
+        status = warn_opposite(scene, model, error);
+        if (status == SB_OK) status = warn_dry(scene, sea, model, error);
+        break;
+    case SB_GIVEN_THEORY:
+        status = warn_depth(scene, model, error);
         if (status == SB_OK) status = warn_direction(scene, model, error);
-        return status == SB_OK ? warn_dry(scene, sea, model, error) : status;
+        if (status == SB_OK) status = warn_dry(scene, sea, model, error);
+        break;
     }
-    }
-    return SB_OK;
+    return status;
 }
