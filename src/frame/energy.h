@@ -17,7 +17,7 @@ typedef struct sb_energy {
    addition to the energy, so that a loss is negative. Their sum is the change of energy, to round-off. */
 typedef struct sb_ledger {
     double bodies;      /* work of moving bodies on the water */
-    double viscosity;   /* artificial, physical and eddy viscosity */
+    double viscosity;   /* artificial, physical and eddy viscosity; and the hydrostatic push of images (method.md) */
     double friction;    /* wall friction and wall shear */
     double pressure;    /* energy that the solve adds or removes; not physical: water of constant density stores none */
     double contact;     /* contact resolution */

@@ -25,13 +25,13 @@ static const struct {
     uint64_t fused, plain;
 } scenes[] = {
     {"column", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "default", "resolution=0.035",
-     "numerics.settle_steps=20", 0x0cc0d90c7fd47ae9, 0xad9d256f99193037},
+     "numerics.settle_steps=20", 0xb7bd2cc85da603b1, 0xa4640c211224e24b},
     {"column with boundary particles", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "paper",
      "resolution=0.035", "numerics.settle_steps=20", 0x2f5a2af1e0181126, 0x7d2e545b3b99ba4a},
     {"column with explicit steps", SB_SOURCE_DIR "/assets/validation/column/column.yaml", "wen", "resolution=0.035",
      "numerics.settle_steps=0", 0xc2cb2e4487cd2b92, 0x1f6b1b16aeec0e2c},
     {"plant", SB_SOURCE_DIR "/assets/scenes/plant.yaml", "default", "resolution=20", "numerics.settle_steps=20",
-     0x4d5ccb2027f9cb63, 0x02dcfcc0a9006035},
+     0xcb8876efbbaa6b8e, 0xf51e72a053ac1153},
 };
 
 static uint64_t count_steps(void)

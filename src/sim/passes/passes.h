@@ -28,7 +28,8 @@ typedef struct sb_body_sums {
    argument that a pass names. */
 typedef struct sb_passes {
     const char *name;
-    /* Computes lists, groups' runs, density, wall vector and diagonal, and for the density correction water_squared. */
+    /* Computes lists, groups' runs, density, wall vector and diagonal, and for the density correction water_squared;
+       with images also their pairs at edges, image_push and the flux of moving walls. */
     sb_status (*neighbours)(sb_sim *sim, sb_error *error);
     /* deviator_xx and deviator: D_i of sim/terms/stress_correction.h. Records carry q of the last step. */
     void (*deviator)(sb_sim *sim);
@@ -44,7 +45,8 @@ typedef struct sb_passes {
     int (*correct)(sb_sim *sim);
     /* eddy: nu_t = min(C_s dr, kappa d)^2 |S|. */
     sb_status (*strain_rate)(sb_sim *sim, sb_error *error);
-    /* predicted, wall_drag and wall_body: v* = v + dt (g + viscosity + drag). Records carry the density if viscous->on.
+    /* predicted, wall_drag and wall_body: v* = v + dt (g + viscosity + drag + image_push). Records carry the density if
+     * viscous->on.
      */
     sb_status (*forces)(sb_sim *sim, const sb_viscous *viscous, const sb_wall_drag *law, sb_error *error);
     /* out += factor sum_j m (f_i - f_j) |W'_ij|/r_ij over particles, without images. */

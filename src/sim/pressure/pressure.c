@@ -66,9 +66,9 @@ sb_status sb_stage_source(sb_sim *sim, sb_error *error)
 }
 
 /* Sets the initial guess of q from the last step's pressure in Pa, whatever its dt was, and multiplies -a_ii by this
-   step's dt^2. A single particle beside a wall starts from its solution: it moves far towards the wall in one step, and
-   an old pressure would throw it back faster than it came. The mean error of all the water does not show such an error.
- */
+   step's dt^2. A single particle beside boundary particles starts from its solution: it moves far towards the wall in
+   one step, and an old pressure would throw it back faster than it came. The mean error of all the water does not show
+   such an error. With images it has pairs with its own images, and starts like the others: docs/decisions/0105. */
 static void set_initial_guess(sb_sim *sim)
 {
     const size_t n = sim->state.n;

@@ -70,7 +70,7 @@ void sb_pressure_drop_ahead(sb_sim *sim);
 
 /* Whether the error meets the tolerance. */
 bool sb_pressure_met(const sb_sim *sim, const sb_pressure_error *error);
-/* Whether the tolerance is met or max_iterations have been done; sets the report's `capped` in the second case. */
+/* Whether the tolerance is met or max_iterations have been done; sets `capped` of work.solve in the second case. */
 bool sb_pressure_done(sb_sim *sim, const sb_pressure_error *error);
 
 #endif

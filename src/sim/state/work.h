@@ -35,7 +35,7 @@ typedef enum sb_phase {
    correction; v* that before the pressure; w that at the step's end. With u = (v + w)/2 a change d of the velocity does
    the work d.u. */
 typedef struct sb_ledger_sums {
-    double forces;         /* (v* - v).u: gravity, viscosity, friction */
+    double forces;         /* (v* - v).u: gravity, viscosity, friction, hydrostatic push of images */
     double solve;          /* (w - v*).u: pressure and contact */
     double fall;           /* z component of u, m/s */
     double rise;           /* change of z in the step, quanta */

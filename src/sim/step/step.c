@@ -56,7 +56,7 @@ static const stage stages[] = {
     {"turbulence", SB_PHASE_TURBULENCE, sb_stage_turbulence, SB_NEEDS(turbulence), BOTH},
     /* adds the viscosity of sponges */
     {"viscous_sponge", SB_PHASE_TURBULENCE, sb_stage_viscous_sponge, SB_NEEDS(viscous_sponge), BOTH},
-    /* v* = v + dt (g + viscosity + friction) */
+    /* v* = v + dt (g + viscosity + friction + hydrostatic push of images) */
     {"forces", SB_PHASE_FORCES, sb_stage_forces, SB_ALWAYS, BOTH},
     /* v* += dt (damping of motion of the scale of the spacing) */
     {"hyperviscosity", SB_PHASES, sb_stage_hyperviscosity, SB_NEEDS(hyperviscosity), IMPLICIT},

@@ -1,5 +1,5 @@
 /* The stage forces: v* = v + dt (g + Monaghan viscosity [S16, eq. 14] + physical and eddy viscosity + wall friction and
-   wall shear). */
+   wall shear + the hydrostatic push of images). */
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
 #include "sim/step/stages.h"

@@ -99,4 +99,11 @@ sb_f4 sb_mirror_velocity(const sb_sim *sim, uint32_t mirror);
 uint32_t sb_mirror_body(const sb_sim *sim, uint32_t mirror);
 sb_vec3 sb_mirror_shift(const sb_sim *sim, uint32_t mirror);
 
+/* By how much q of an image below its original is larger, per quantum: beyond a wall the pressure goes on as in water
+   at rest. With the same pressure on both sides the pressure at a floor would have no gradient. */
+SB_INLINE float sb_hydrostatic(const sb_sim *sim)
+{
+    return sim->constant.gravity * (float)sim->space.quantum / sim->constant.rest_density;
+}
+
 #endif

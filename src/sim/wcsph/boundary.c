@@ -38,7 +38,7 @@ typedef struct sums_of {
     const sb_kernel *kernel;
     sb_kernel_batch *batch;
     float to_q2, slope; /* (quantum/h)^2; m alpha quantum/h^(d+2), so that slope w'(q)/q d is m grad W, kg/m^4 */
-    float weight;       /* kg/m^3 per Pa and metre: rho_0 g quantum, hydrostatic pressure per quantum */
+    float weight;       /* Pa per quantum: rho_0 g quantum, hydrostatic */
 } sums_of;
 
 static sums_of constants_of(const sb_sim *sim)

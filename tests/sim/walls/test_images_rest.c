@@ -173,12 +173,31 @@ static void water_over_a_bar_rests(void **state)
     basin_free(&b);
 }
 
+/* Five layers of water at rest between a wall and the tank, whose floor is another body than the wall. Of the images by
+   both the floor bears what lies below it: the wall has the load of still water. */
+static void a_wall_on_another_bodys_floor(void **state)
+{
+    (void)state;
+    basin b;
+    basin_fill(&b, 2, "0.1", "[3, 1]", "{level: 0.5, seed: [2, 0.2]}",
+               "[{name: wall, shape: box, min: [-1, -1], max: [1, 2]}]", "completed");
+    basin_settle(&b);
+    assert_int_equal(tank_steps(b.sim, 400), 0);
+    const double time = sb_sim_report(b.sim)->time, load = 0.5 * 9810 * 0.5 * 0.5;
+    const double force = sb_sim_impulse(b.sim, 0)->pressure.x / time;
+    printf("wall of body %s: %.4f of the load of still water\n", b.model.bodies[0].name, -force / load);
+    assert_string_equal(b.model.bodies[0].name, "wall");
+    assert_true(fabs(-force / load - 1) < 0.007);
+    basin_free(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(still_water_exerts_no_force_on_blocks), cmocka_unit_test(a_pier_hides_the_recess_behind_it),
         cmocka_unit_test(the_floor_ends_at_the_foot_of_a_slope), cmocka_unit_test(a_bed_of_fine_facets_is_simplified),
         cmocka_unit_test(a_bed_of_too_fine_facets_is_refused),   cmocka_unit_test(water_over_a_bar_rests),
+        cmocka_unit_test(a_wall_on_another_bodys_floor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

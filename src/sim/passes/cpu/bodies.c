@@ -1,6 +1,5 @@
 #include "sim/exchange/exchange.h"
 #include "sim/exchange/sums.h"
-#include "sim/passes/cpu/body_forces.h"
 #include "sim/passes/cpu/cpu.h"
 #include "sim/passes/cpu/drag.h"
 #include "sim/passes/cpu/reactions.h"

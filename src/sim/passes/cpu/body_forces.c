@@ -71,12 +71,6 @@ void sb_body_forces_of_facet(const sb_sim *sim, sb_body_forces *to, uint32_t mir
     sb_body_forces_add(sim, to, body, place, force, (sb_vec3){0});
 }
 
-void sb_body_forces_along(const sb_sim *sim, sb_body_forces *to, const sb_group_plane *plane, sb_vec3 at, sb_vec3 force)
-{
-    const sb_f4 n = plane->plane;
-    sb_body_forces_of_facet(sim, to, plane->mirror, at, force, sb_vec((double)n[0], (double)n[1], (double)n[2]));
-}
-
 void sb_body_forces_close(sb_body_forces *f)
 {
     for (size_t b = 0; b < f->count; b++) {
@@ -87,27 +81,4 @@ void sb_body_forces_close(sb_body_forces *f)
         f->acted_on[f->body[b]] = false;
     }
     f->count = 0;
-}
-
-void sb_reactions_close(const sb_sim *sim, const sb_group_plane *planes, sb_vec3 at, sb_reactions *r,
-                        sb_body_forces *to)
-{
-    const double mass = (double)sim->constant.mass;
-    for (uint32_t k = 0; k < r->count; k++) {
-        const uint32_t plane = r->plane[k];
-        const double along = mass * (double)r->along[plane];
-        const sb_f4 normal = planes[plane].plane, whole = r->across[plane];
-        sb_body_forces_along(sim, to, &planes[plane], at,
-                             sb_vec(along * (double)normal[0], along * (double)normal[1], along * (double)normal[2]));
-        if (sb_sum3(whole * whole) > 0) {
-            const sb_f4 across = whole - normal * sb_splat(sb_sum3(normal * whole));
-            sb_body_forces_of_facet(
-                sim, to, planes[plane].mirror, at,
-                sb_vec(mass * (double)across[0], mass * (double)across[1], mass * (double)across[2]), (sb_vec3){0});
-        }
-        r->known[plane] = false;
-        r->along[plane] = 0;
-        r->across[plane] = (sb_f4){0};
-    }
-    r->count = 0;
 }

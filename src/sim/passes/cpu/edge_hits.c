@@ -1,6 +1,5 @@
 /* The pairs at edges of a particle, and what repels it from its own images. */
 #include "base/memory.h"
-#include "sim/passes/cpu/body_forces.h"
 #include "sim/passes/cpu/search_parts.h"
 
 #include <math.h>

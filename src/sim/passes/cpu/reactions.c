@@ -1,6 +1,21 @@
 #include "sim/passes/cpu/reactions.h"
 
-#include "sim/walls/mirrors.h"
+void sb_reactions_close(const sb_sim *sim, const sb_group_plane *planes, sb_vec3 at, sb_reactions *r,
+                        sb_body_forces *to)
+{
+    for (uint32_t k = 0; k < r->count; k++) {
+        const uint32_t plane = r->plane[k];
+        const sb_f4 normal = planes[plane].plane;
+        const sb_vec3 n = sb_vec((double)normal[0], (double)normal[1], (double)normal[2]);
+        const sb_f4 w = r->whole[plane];
+        const sb_vec3 a = sb_madd(sb_vec((double)w[0], (double)w[1], (double)w[2]), (double)r->along[plane], n);
+        sb_body_forces_of_facet(sim, to, planes[plane].mirror, at, sb_scale(a, (double)sim->constant.mass), n);
+        r->known[plane] = false;
+        r->along[plane] = 0;
+        r->whole[plane] = (sb_f4){0};
+    }
+    r->count = 0;
+}
 
 void sb_pulls_find(const sb_sim *sim, const sb_group *group, sb_pull *pulls)
 {
@@ -11,7 +26,7 @@ void sb_pulls_find(const sb_sim *sim, const sb_group *group, sb_pull *pulls)
         const sb_f4 from = sb_offset(sim->state.position[image->from], group->corner);
         const sb_f4 plane = sb_path_plane(planes, image->path);
         pulls[k].head = hydrostatic * (from[2] - image->at[2]);
-        pulls[k].q = sim->work.unknown[sb_entry_owner(sim, image->from)] + pulls[k].head;
+        pulls[k].q = sim->work.unknown[sb_entry_owner(sim, image->from)];
         pulls[k].above = sb_sum3(plane * from) - plane[3];
         pulls[k].plane = image->path > SB_REFLECTION_MASK ? SB_PLANES_SEVERAL : image->path - 1;
     }
@@ -22,23 +37,27 @@ static sb_f4 place_of(const sb_image *image)
     return (sb_f4){image->at[0], image->at[1], image->at[2], 0};
 }
 
-/* Adds a pair with an image by several reflections. weight: its slope, 1/s^2 for an offset in quanta and q. */
+/* Adds a pair with an image by several reflections. slope: 1/s^2 for an offset in quanta and q. */
 static void react_several(const sb_sim *sim, const sb_group *group, const sb_image *image, float slope, size_t i,
                           sb_reactions *reactions)
 {
     const sb_group_plane *planes = sim->groups.plane + group->plane;
     const sb_f4 self = sb_offset(sim->state.position[i], group->corner);
-    const sb_f4 from = sb_offset(sim->state.position[image->from], group->corner);
-    const sb_f4 place = place_of(image);
     const float q = sim->work.unknown[i] + sim->work.unknown[sb_entry_owner(sim, image->from)];
-    const sb_f4 pull = (self - place) * sb_splat(-slope);
+    const float hydrostatic = sb_hydrostatic(sim);
+    const sb_f4 pull = (self - place_of(image)) * sb_splat(-slope);
     sb_reactions_reflected(reactions, planes, image->path, pull * sb_splat(q));
-    sb_reactions_whole(reactions, planes, image->path, pull * sb_splat(sb_hydrostatic(sim) * (from[2] - place[2])));
+    sb_f4 from = sb_offset(sim->state.position[image->from], group->corner);
+    for (uint32_t path = image->path; path; path >>= SB_REFLECTION_BITS) {
+        const uint32_t plane = (path & SB_REFLECTION_MASK) - 1;
+        const sb_f4 to = sb_reflect(planes[plane].plane, from);
+        sb_reaction_whole(reactions, plane, pull * sb_splat(hydrostatic * (to[2] - from[2])));
+        from = to;
+    }
 }
 
 /* The force of a pair with an image by one reflection is along the plane's normal the sum of both ends' distances
-   before the plane, times a factor. Across it the plane takes the part by the head only; the other acts between the two
-   particles. */
+   before the plane, times a factor; and the force by the head. */
 SB_APART void react_reflected(const sb_sim *sim, const sb_group *group, uint32_t records, const sb_pull *pulls,
                               size_t i, sb_reactions *reactions)
 {
@@ -46,7 +65,7 @@ SB_APART void react_reflected(const sb_sim *sim, const sb_group *group, uint32_t
     const sb_group_plane *planes = sim->groups.plane + group->plane;
     const sb_f4 self = sb_offset(sim->state.position[i], group->corner);
     const float own = sim->work.unknown[i];
-    float above[SB_REACTIONS_MAX];
+    float above[SB_NEAR_MAX];
     for (uint32_t p = 0; p < group->planes; p++) above[p] = sb_sum3(planes[p].plane * self) - planes[p].plane[3];
     const size_t first = lists->first[i];
     for (size_t f = first + lists->direct[i]; f < first + lists->count[i]; f++) {
@@ -62,7 +81,7 @@ SB_APART void react_reflected(const sb_sim *sim, const sb_group *group, uint32_t
             sb_reaction(reactions, pull->plane, slope[k] * (own + pull->q) * (above[pull->plane] + pull->above));
             if (pull->head == 0) continue;
             const sb_f4 place = place_of(&sim->groups.image[group->image + image]);
-            sb_reaction_across(reactions, pull->plane, (place - self) * sb_splat(slope[k] * pull->head));
+            sb_reaction_whole(reactions, pull->plane, (self - place) * sb_splat(slope[k] * pull->head));
         }
     }
 }

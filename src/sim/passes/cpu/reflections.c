@@ -1,5 +1,4 @@
 /* The pairs of a particle with images. */
-#include "sim/passes/cpu/body_forces.h"
 #include "sim/passes/cpu/search_parts.h"
 
 #include <math.h>

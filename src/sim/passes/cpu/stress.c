@@ -1,6 +1,5 @@
 /* The passes of the deviatoric stress correction (sim/terms/stress_correction.h). */
 #include "sim/exchange/exchange.h"
-#include "sim/passes/cpu/body_forces.h"
 #include "sim/passes/cpu/cpu.h"
 #include "sim/passes/cpu/eights.h"
 #include "sim/passes/cpu/reactions.h"
@@ -146,7 +145,7 @@ SB_INLINE void push_walls(const sb_sim *sim, const sb_group *group, const sb_f4 
     for (size_t i = group->first; i < group->end; i++) {
         const sb_f4 self = sb_in_group(sim, group, i), own = sim->work.stress[i];
         const sb_vec3 at = sb_space_position(&sim->space, sim->state.position[i]);
-        sb_f4 through[SB_REACTIONS_MAX];
+        sb_f4 through[SB_NEAR_MAX];
         for (uint32_t p = 0; p < group->planes; p++) through[p] = sb_tensor_times(self, own, planes[p].plane);
         const size_t first = lists->first[i];
         for (size_t f = first + lists->direct[i]; f < first + lists->count[i]; f++) {

@@ -56,22 +56,21 @@ void sb_plain_reflect(const sb_sim *sim, const sb_indices *indices, uint32_t pat
     }
 }
 
-/* The reactions to the hydrostatic part of an image's pressure: each plane takes the normal part of what is left, the
-   last one the rest. */
-static void take_whole(const sb_sim *sim, const sb_indices *indices, uint32_t path, sb_vec3 at, sb_vec3 a,
-                       double *force)
+/* The reactions to the hydrostatic part of an image's pressure: each plane of the path bears the acceleration `a` per
+   quantum times the part of the head that it adds. from: quanta from the corner, the original. */
+static void bear_head(const sb_sim *sim, const sb_indices *indices, uint32_t path, sb_vec3 at, sb_vec3 from, sb_vec3 a,
+                      double *force)
 {
     const sb_group_plane *plane[SB_REFLECTIONS_MAX];
     const int count = sb_path_planes(indices, path, plane);
     for (int k = 0; k < count; k++) {
+        const uint32_t mirror = plane[k]->mirror;
         const sb_vec3 n = sb_vector_of(plane[k]->plane);
-        const double along = sb_dot(n, a);
-        push_plane(sim, plane[k], at, -along, force);
-        a = sb_madd(a, -along, n);
+        const sb_vec3 to = sb_madd(from, -2 * (sb_dot(n, from) - (double)plane[k]->plane[3]), n);
+        act_on(sim, sb_mirror_body(sim, mirror), sb_add(at, sb_mirror_shift(sim, mirror)),
+               sb_scale(a, -(double)sim->constant.mass * (from.z - to.z)), (sb_vec3){0}, force);
+        from = to;
     }
-    const uint32_t mirror = plane[count - 1]->mirror;
-    act_on(sim, sb_mirror_body(sim, mirror), sb_add(at, sb_mirror_shift(sim, mirror)),
-           sb_scale(a, -(double)sim->constant.mass), (sb_vec3){0}, force);
 }
 
 static double unknown_of(const sb_sim *sim, uint32_t entry)
@@ -88,10 +87,9 @@ static void react_images(const sb_sim *sim, const sb_indices *around, size_t i, 
         const sb_one_pair p = sb_pair_at(sim, around, i, k);
         if (p.slope == 0) continue;
         const sb_vec3 from = sb_offset_of(sim->state.position[p.other], around->corner);
-        const double head = from.z - sb_image_place(around, p.path, from).z;
         sb_plain_reflect(sim, around, p.path, at, sb_scale(p.offset, -p.slope * (own + unknown_of(sim, p.other))),
                          force);
-        take_whole(sim, around, p.path, at, sb_scale(p.offset, -p.slope * hydrostatic * head), force);
+        bear_head(sim, around, p.path, at, from, sb_scale(p.offset, -p.slope * hydrostatic), force);
     }
     for (size_t k = 0; k < sb_edge_count(sim, i); k++) {
         const sb_edge_pair *e = sb_edge_at(sim, i, k);
