@@ -166,55 +166,76 @@ static size_t with_reserve(size_t used)
     return used + used / 32 + 1024;
 }
 
+/* A larger array in place of one that was too small; NULL without memory. */
+static void *renewed(void *array, size_t used, size_t size)
+{
+    sb_free(array);
+    return sb_alloc_untouched(with_reserve(used), size);
+}
+
+static size_t capacity_of(const void *array, size_t used)
+{
+    return array ? with_reserve(used) : 0;
+}
+
+/* Enlarges the pools that were too small. Returns 0, or -1 without memory. */
 static int enlarge(sb_sim *sim)
 {
     sb_lists *water = &sim->work.pairs;
     sb_pairs *wall = &sim->work.wall_pairs;
+    sb_edge_pairs *edges = &sim->work.edge_pairs;
     sb_groups *groups = &sim->groups;
     if (water->used > water->capacity) {
-        const size_t capacity = with_reserve(water->used);
-        sb_free(water->four);
-        water->four = sb_alloc_untouched(capacity, sizeof *water->four);
-        water->capacity = water->four ? capacity : 0;
+        water->four = renewed(water->four, water->used, sizeof *water->four);
+        water->capacity = capacity_of(water->four, water->used);
     }
     if (wall->used > wall->capacity) {
-        const size_t capacity = with_reserve(wall->used);
-        sb_free(wall->index);
-        sb_free(wall->slope);
-        wall->index = sb_alloc_untouched(capacity, sizeof *wall->index);
-        wall->slope = sb_alloc_untouched(capacity, sizeof *wall->slope);
-        wall->capacity = wall->index && wall->slope ? capacity : 0;
+        wall->index = renewed(wall->index, wall->used, sizeof *wall->index);
+        wall->slope = renewed(wall->slope, wall->used, sizeof *wall->slope);
+        wall->capacity = wall->slope ? capacity_of(wall->index, wall->used) : 0;
+    }
+    if (edges->used > edges->capacity) {
+        edges->pair = renewed(edges->pair, edges->used, sizeof *edges->pair);
+        edges->capacity = capacity_of(edges->pair, edges->used);
     }
     if (groups->used > groups->room) {
-        const size_t room = with_reserve(groups->used);
-        sb_free(groups->run);
-        groups->run = sb_alloc_untouched(room, sizeof *groups->run);
-        groups->room = groups->run ? room : 0;
-    }
-    sb_edge_pairs *edges = &sim->work.edge_pairs;
-    if (edges->used > edges->capacity) {
-        const size_t capacity = with_reserve(edges->used);
-        sb_free(edges->pair);
-        edges->pair = sb_alloc_untouched(capacity, sizeof *edges->pair);
-        edges->capacity = edges->pair ? capacity : 0;
+        groups->run = renewed(groups->run, groups->used, sizeof *groups->run);
+        groups->room = capacity_of(groups->run, groups->used);
     }
     if (groups->images_used > groups->images_room) {
-        const size_t room = with_reserve(groups->images_used);
-        sb_free(groups->image);
-        groups->image = sb_alloc_untouched(room, sizeof *groups->image);
-        groups->images_room = groups->image ? room : 0;
+        groups->image = renewed(groups->image, groups->images_used, sizeof *groups->image);
+        groups->images_room = capacity_of(groups->image, groups->images_used);
     }
     if (groups->planes_used > groups->planes_room) {
-        const size_t room = with_reserve(groups->planes_used);
-        sb_free(groups->plane);
-        groups->plane = sb_alloc_untouched(room, sizeof *groups->plane);
-        groups->planes_room = groups->plane ? room : 0;
+        groups->plane = renewed(groups->plane, groups->planes_used, sizeof *groups->plane);
+        groups->planes_room = capacity_of(groups->plane, groups->planes_used);
     }
-    return water->used <= water->capacity && wall->used <= wall->capacity && groups->used <= groups->room &&
-                   edges->used <= edges->capacity && groups->images_used <= groups->images_room &&
+    return water->used <= water->capacity && wall->used <= wall->capacity && edges->used <= edges->capacity &&
+                   groups->used <= groups->room && groups->images_used <= groups->images_room &&
                    groups->planes_used <= groups->planes_room
                ? 0
                : -1;
+}
+
+/* The pools are indexed by 32 bits. */
+static sb_status check_sizes(const sb_sim *sim, sb_error *error)
+{
+    const struct {
+        size_t used;
+        const char *what;
+    } pools[] = {
+        {sim->work.pairs.used, "groups of four pairs of neighbours"},
+        {sim->work.wall_pairs.used, "pairs with walls"},
+        {sim->work.edge_pairs.used, "pairs at edges"},
+        {sim->groups.used, "runs of records"},
+        {sim->groups.images_used, "images of particles"},
+        {sim->groups.planes_used, "planes near groups"},
+    };
+    for (size_t p = 0; p < sizeof pools / sizeof *pools; p++)
+        if (pools[p].used > UINT32_MAX / 2)
+            return sb_fail(error, SB_FAILED, "%zu %s: expected fewer than 2^31; more ranks, or a coarser resolution",
+                           pools[p].used, pools[p].what);
+    return SB_OK;
 }
 
 static sb_status refuse(const sb_sim *sim, unsigned full, sb_error *error)
@@ -241,9 +262,8 @@ sb_status sb_search_all(sb_sim *sim, const sb_search_form *form, sb_error *error
         if (attempt(sim, form, &too_small, &full) != 0) return sb_fail_memory(error, "neighbour lists");
         if (full) return refuse(sim, full, error);
         if (!too_small) return SB_OK;
-        if (sim->work.pairs.used > UINT32_MAX / 2 || sim->work.wall_pairs.used > UINT32_MAX / 2)
-            return sb_fail(error, SB_FAILED, "%zu pairs of neighbours, %zu with walls: expected fewer than 2^33, 2^31",
-                           4 * sim->work.pairs.used, sim->work.wall_pairs.used);
+        const sb_status status = check_sizes(sim, error);
+        if (status != SB_OK) return status;
         if (enlarge(sim) != 0) return sb_fail_memory(error, "neighbour lists");
     }
 }
