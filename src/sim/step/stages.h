@@ -7,7 +7,7 @@
 
 /* sim/step/time_step.c: sets the report's time step; fails if the run has diverged. */
 sb_status sb_stage_time_step(sb_sim *sim, sb_error *error);
-/* sim/walls/walls.c: moves the paddles to t, rebuilds their table, and computes their velocities until t + dt. */
+/* sim/walls/wall_motion.c: moves the paddles to t, rebuilds their table, and computes their velocities until t + dt. */
 sb_status sb_stage_walls(sb_sim *sim, sb_error *error);
 /* sim/search/sort_stage.c: wraps or removes particles outside of the domain, sorts the rest along the Z-curve, builds
    the cells. */
