@@ -31,6 +31,9 @@ typedef struct sb_mirror_entry {
 /* The facets near a group of particles, relative to the group's corner. */
 enum { SB_NEAR_MAX = 200, SB_NEAR_EDGES_MAX = 1024 };
 
+/* Two facets are at right angles if the cosine between their normals, without its sign, is below this. */
+#define SB_FACETS_SQUARE 1e-3f
+
 typedef struct sb_near_edge {
     sb_f4 inward; /* unit, in the facet's plane; last lane: inward . x on the edge; of a concave edge: the normal of the
                      wall that stands there, so that all water before both has no edge */

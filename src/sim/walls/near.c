@@ -4,10 +4,10 @@
 
 #include <math.h>
 
-/* Cosines between the normals of two facets. SQUARE: up to this, without its sign, they are at right angles. PARALLEL:
-   below it they face each other and are parallel, to 0.8 degrees, so that they meet in no line. OPPOSITE: below it they
-   face each other with less than 26 degrees between them, and neither hides water from the other. */
-static const float SQUARE = 1e-3f, PARALLEL = -0.9999f, OPPOSITE = -0.9f;
+/* Cosines between the normals of two facets. PARALLEL: below it they face each other and are parallel, to 0.8 degrees,
+   so that they meet in no line. OPPOSITE: below it they face each other with less than 26 degrees between them, and
+   neither hides water from the other. */
+static const float PARALLEL = -0.9999f, OPPOSITE = -0.9f;
 
 /* In spacings: how far behind a plane water or a facet must be to count as behind it. */
 static const double BEHIND = 0.05;
@@ -28,7 +28,8 @@ static void add_edges(const sb_sim *sim, const box *b, sb_vec3 moved, const sb_m
         const sb_mirror_edge *e = &sim->walls.mirrors.edge[k];
         const double away = sb_mirrors_from_segment(sb_add(e->from, moved), sb_add(e->to, moved), b->middle);
         if (away > b->radius) continue;
-        const bool leans = e->bend == SB_BEND_CONCAVE && fabs(sb_dot(e->wall, mirror->normal)) > (double)SQUARE;
+        const bool leans =
+            e->bend == SB_BEND_CONCAVE && fabs(sb_dot(e->wall, mirror->normal)) > (double)SB_FACETS_SQUARE;
         const sb_vec3 inward = leans ? e->wall : e->inward;
         const double distance_of = leans ? sb_dot(e->wall, e->from) : e->distance;
         const sb_near_edge made = {{(float)inward.x, (float)inward.y, (float)inward.z,
@@ -109,7 +110,7 @@ static bool before(const sb_sim *sim, const sb_near_facet *a, const sb_near_face
 /* See sb_near.sectors. along: the cosine between the normals. */
 static float sectors_of(float along)
 {
-    if (fabsf(along) < SQUARE) return 2;
+    if (fabsf(along) < SB_FACETS_SQUARE) return 2;
     return along < PARALLEL ? INFINITY : (float)M_PI / acosf(-along);
 }
 
@@ -126,7 +127,7 @@ static void relate(const sb_sim *sim, sb_near *near)
             near->meeting |= near->meets[a][b];
             near->sectors[a][b] = near->meets[a][b] ? sectors_of(along) : 0;
             near->blunt[a] |= near->sectors[a][b] < 2 && near->sectors[a][b] > SB_SECTORS_LEAST;
-            const bool square = fabsf(along) < SQUARE;
+            const bool square = fabsf(along) < SB_FACETS_SQUARE;
             near->oblique |= near->meets[a][b] && !square && !(along < OPPOSITE);
             near->skew |= near->meets[a][b] && !square;
         }

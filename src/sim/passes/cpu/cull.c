@@ -247,9 +247,7 @@ bool sb_cull_meets(const sb_near *near, const sb_cull *cull, uint32_t path, sb_f
     for (; path; path >>= SB_REFLECTION_BITS) of[count++] = (path & SB_REFLECTION_MASK) - 1;
     sb_met met = {.near = near};
     for (int k = 0; k < count; k++) {
-        bool square = true;
-        for (int m = 0; m < count; m++) square &= m == k || sb_facets_square(near, of[k], of[m]);
-        if (!square) met.of[met.count++] = of[k];
+        if (!sb_square_to_others(near, of, count, k)) met.of[met.count++] = of[k];
     }
     for (met.first = met.count; met.first > 0;) {
         const sb_near_facet *f = &near->facet[met.of[met.first - 1]];

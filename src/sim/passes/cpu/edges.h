@@ -31,7 +31,22 @@ SB_INLINE float sb_within_edge(const sb_near_edge *e, sb_f4 at)
 /* Whether two facets stand at right angles. */
 SB_INLINE bool sb_facets_square(const sb_near *near, size_t a, size_t b)
 {
-    return fabsf(sb_sum3(near->facet[a].plane * near->facet[b].plane)) < 1e-3f;
+    return fabsf(sb_sum3(near->facet[a].plane * near->facet[b].plane)) < SB_FACETS_SQUARE;
+}
+
+/* Whether facet k of a path stands at right angles to all others. of: indices of the path's facets. */
+SB_INLINE bool sb_square_to_others(const sb_near *near, const size_t *of, int count, int k)
+{
+    bool square = true;
+    for (int m = 0; m < count; m++) square &= m == k || sb_facets_square(near, of[k], of[m]);
+    return square;
+}
+
+/* 1 - erf(size), size >= 0, with e = exp(-size^2); |error| < 2e-7 [Abramowitz and Stegun 1964, 7.1.26]. */
+SB_INLINE float sb_erf_tail(float size, float e)
+{
+    const float k = 1 / (1 + 0.3275911f * size);
+    return k * (0.254829592f + k * (-0.284496736f + k * (1.421413741f + k * (-1.453152027f + k * 1.061405429f)))) * e;
 }
 
 /* Whether two facets meet at another than a right angle, and are not parallel. */

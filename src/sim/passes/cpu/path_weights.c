@@ -16,12 +16,10 @@ uint32_t sb_about_edges(const sb_near *near, const sb_near_facet *f, sb_f4 at, f
     return edge;
 }
 
-/* exp(-t^2) = e; |error| < 2e-7 [Abramowitz and Stegun 1964, 7.1.26]. */
+/* exp(-t^2) = e */
 static float error_function(float t, float e)
 {
-    const float k = 1 / (1 + 0.3275911f * fabsf(t));
-    const float tail =
-        k * (0.254829592f + k * (-0.284496736f + k * (1.421413741f + k * (-1.453152027f + k * 1.061405429f)))) * e;
+    const float tail = sb_erf_tail(fabsf(t), e);
     return t < 0 ? tail - 1 : 1 - tail;
 }
 
@@ -404,9 +402,7 @@ void sb_path_weight(const sb_weigher *w, const size_t *by, int count, sb_f4 sour
         return;
     }
     for (int k = 0; k < count; k++) {
-        bool square_to_all = true;
-        for (int m = 0; m < count; m++) square_to_all &= m == k || sb_facets_square(w->near, by[k], by[m]);
-        if (square_to_all)
+        if (sb_square_to_others(w->near, by, count, k))
             any[anys++] = by[k];
         else
             ordered[orders++] = by[k];

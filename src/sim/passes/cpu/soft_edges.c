@@ -29,10 +29,7 @@ void sb_soft_edges_weigh(sb_soft_edges *restrict of, float transition)
     for (size_t n = 0; n < count; n++) {
         const float ci = of->own_c[n], si = of->own_s[n], cj = of->other_c[n], sj = of->other_s[n];
         const float t = twice * (ci * cj - si * sj), e = exponential(t * t), size = fabsf(t);
-        /* erf [Abramowitz and Stegun 1964, 7.1.26], |error| < 2e-7. */
-        const float k = 1 / (1 + 0.3275911f * size);
-        const float tail =
-            k * (0.254829592f + k * (-0.284496736f + k * (1.421413741f + k * (-1.453152027f + k * 1.061405429f)))) * e;
+        const float tail = sb_erf_tail(size, e);
         const float to_i = norm * e / (of->own_rho[n] + least), to_j = norm * e / (of->other_rho[n] + least);
         const float across = si * cj - ci * sj, along = ci * cj + si * sj;
         of->value[n] = t < 0 ? 0.5f * tail : 1 - 0.5f * tail;
