@@ -216,6 +216,8 @@ static void doubtful_input_is_named(void **state)
         {"sea: {source: theory, wave: solitary, height: 0.08, depth: 0.4, start: -2.5}\n", "a bore enters at once"},
         {"sea: {source: theory, wave: solitary, height: 0.08, depth: 0.4, level: 0.5}\n", "sea.start or sea.level"},
         {"sea: {source: table, file: table.csv, datum: 0.48, sides: {x_max: still}}\n", "sea.start or sea.datum"},
+        {"sea: {source: table, file: table.csv, datum: 0.32, sides: {x_max: still}}\n",
+         "the given water begins 0.08 m below the still water of water.level"},
         {"sea: {source: offshore}\noffshore: {cell: 0.05, min: [-1], max: [5], level: 0.5}\n",
          "sea.start or offshore.level"},
         {"sea: {source: theory, wave: solitary, height: 0.08, depth: 0.8}\n", "expected the depth at the side"},

@@ -280,19 +280,6 @@ static void what_is_refused(void **state)
                 "(500, 0) lies 490 m from the domain");
 }
 
-static void a_late_start_is_warned_of(void **state)
-{
-    (void)state;
-    sea_case c;
-    sea_make(&c, SEA_FLAT, TABLE, "t,eta,u\n0,0.3,0\n20,0.3,0\n");
-    assert_non_null(sb_sea_warning(c.sea));
-    assert_non_null(strstr(sb_sea_warning(c.sea), "begins 0.3 m above the still level"));
-    sea_free(&c);
-    sea_make(&c, SEA_FLAT, TABLE, "t,eta,u\n0,-0.3,0\n20,-0.3,0\n");
-    assert_non_null(strstr(sb_sea_warning(c.sea), "begins 0.3 m below the still level"));
-    sea_free(&c);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -308,7 +295,6 @@ int main(void)
         cmocka_unit_test(what_looks_like_degrees),
         cmocka_unit_test(gauges_of_geoclaw),
         cmocka_unit_test(what_is_refused),
-        cmocka_unit_test(a_late_start_is_warned_of),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
