@@ -77,6 +77,7 @@ static void take_settle(sb_archive_in *in, const sb_scene *scene, sb_settle *set
 {
     *settle = (sb_settle){.under_way = sb_take_flag(in)};
     settle->done = take_steps(in);
+    if (settle->done < 0) sb_archive_refuse(in, "%d settling steps, expected 0 or more", settle->done);
     if (!settle->under_way) return;
     settle->most = take_steps(in);
     settle->calm = take_steps(in);
@@ -84,7 +85,7 @@ static void take_settle(sb_archive_in *in, const sb_scene *scene, sb_settle *set
     const int most = scene->numerics.settle_steps;
     if (sb_settle_over(settle))
         sb_archive_refuse(in, "settling has ended at step %d: expected settling in progress", settle->done);
-    if (settle->done < 0 || settle->calm < 0 || settle->most > most || isnan(settle->kinetic))
+    if (settle->calm < 0 || settle->most > most || isnan(settle->kinetic))
         sb_archive_refuse(in, "settling step %d of at most %d: expected at most %d steps", settle->done, settle->most,
                           most);
 }
