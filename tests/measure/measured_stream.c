@@ -22,7 +22,7 @@
 
 #include <cmocka.h>
 
-/* h = a = 0.4 m, ten spacings. Walls bear no shear, because the theory has none: with it the water before the foot
+/* h = a = 0.4 m, ten spacings. Walls have no shear, because the theory has none: with it the water before the foot
    loses speed. Gravity adds less than 2 % of the pressure at the foot. */
 #define SPACING 0.04
 #define HEIGHT 0.4

@@ -45,9 +45,8 @@ typedef struct sb_passes {
     int (*correct)(sb_sim *sim);
     /* eddy: nu_t = min(C_s dr, kappa d)^2 |S|. */
     sb_status (*strain_rate)(sb_sim *sim, sb_error *error);
-    /* predicted, wall_drag and wall_body: v* = v + dt (g + viscosity + drag + image_push). Records carry the density if
-     * viscous->on.
-     */
+    /* predicted, wall_drag and wall_body: v* = v + dt (g + viscosity + drag + image_push). Records carry the
+       density if viscous->on. */
     sb_status (*forces)(sb_sim *sim, const sb_viscous *viscous, const sb_wall_drag *law, sb_error *error);
     /* out += factor sum_j m (f_i - f_j) |W'_ij|/r_ij over particles, without images. */
     void (*differences)(sb_sim *sim, const sb_f4 *field, float factor, sb_f4 *out);

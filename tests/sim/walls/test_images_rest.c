@@ -174,7 +174,7 @@ static void water_over_a_bar_rests(void **state)
 }
 
 /* Five layers of water at rest between a wall and the tank, whose floor is another body than the wall. Of the images by
-   both the floor bears what lies below it: the wall has the load of still water. */
+   both the floor takes the push of those below it: the wall has the load of still water. */
 static void a_wall_on_another_bodys_floor(void **state)
 {
     (void)state;

@@ -1,7 +1,6 @@
 /* Forces of the pairs with images on the facets that reflect them. Of a pair that acts from i to its image and from j
    to the image of i, each reflection takes what it turns round. What depends on the image alone is computed once per
-   group.
-   */
+   group. */
 #ifndef SB_SIM_CPU_REACTIONS_H
 #define SB_SIM_CPU_REACTIONS_H
 
@@ -64,8 +63,8 @@ void sb_pulls_find(const sb_sim *sim, const sb_group *group, sb_pull *pulls);
 
 /* Adds the forces on bodies by pairs of particle i with images and by its pairs at edges. Each reflection of a path
    takes the normal part of the pair's force; what remains acts between the two particles. What the image has more at
-   rest acts on i alone: each reflection bears all of the force by the part of the head that it adds, so that a floor
-   beside a wall bears what lies below it, and the wall does not. records: sb_around_count. */
+   rest acts on i alone: each reflection takes all of the force by the part of the head that it adds, so that a floor
+   beside a wall takes the force of the images below it, and the wall does not. records: sb_around_count. */
 void sb_react_images(const sb_sim *sim, const sb_group *group, uint32_t records, const sb_pull *pulls, size_t i,
                      sb_reactions *reactions, sb_body_forces *to);
 

@@ -56,9 +56,9 @@ void sb_plain_reflect(const sb_sim *sim, const sb_indices *indices, uint32_t pat
     }
 }
 
-/* The reactions to the hydrostatic part of an image's pressure: each plane of the path bears the acceleration `a` per
+/* The reactions to the hydrostatic part of an image's pressure: each plane of the path takes the acceleration `a` per
    quantum times the part of the head that it adds. from: quanta from the corner, the original. */
-static void bear_head(const sb_sim *sim, const sb_indices *indices, uint32_t path, sb_vec3 at, sb_vec3 from, sb_vec3 a,
+static void take_head(const sb_sim *sim, const sb_indices *indices, uint32_t path, sb_vec3 at, sb_vec3 from, sb_vec3 a,
                       double *force)
 {
     const sb_group_plane *plane[SB_REFLECTIONS_MAX];
@@ -89,7 +89,7 @@ static void react_images(const sb_sim *sim, const sb_indices *around, size_t i, 
         const sb_vec3 from = sb_offset_of(sim->state.position[p.other], around->corner);
         sb_plain_reflect(sim, around, p.path, at, sb_scale(p.offset, -p.slope * (own + unknown_of(sim, p.other))),
                          force);
-        bear_head(sim, around, p.path, at, from, sb_scale(p.offset, -p.slope * hydrostatic), force);
+        take_head(sim, around, p.path, at, from, sb_scale(p.offset, -p.slope * hydrostatic), force);
     }
     for (size_t k = 0; k < sb_edge_count(sim, i); k++) {
         const sb_edge_pair *e = sb_edge_at(sim, i, k);
