@@ -146,15 +146,20 @@ static void test_wcsph_is_the_preset_wen(void **state)
     assert_true(found > 1 && without > 1);
 }
 
+/* All but the wave basin, which takes too long, have a quick form. */
 static void test_subjects_have_spacings_and_errors(void **state)
 {
     (void)state;
+    int forms = 0, subjects = 0;
     for (const sb_subject *s = sb_subjects; s->name; s++) {
-        assert_true(s->full[0] > 0 && s->quick[0] > 0 && s->errors[0].name);
+        assert_true(s->full[0] > 0 && s->errors[0].name);
+        forms += s->quick[0] > 0;
         for (int i = 0; s->full[i] > 0; i++) assert_true(s->full_reference < s->full[i]);
         for (int i = 0; s->quick[i] > 0; i++) assert_true(s->quick_reference < s->quick[i]);
         assert_true((s->full_reference > 0) == (s->quick_reference > 0));
+        subjects++;
     }
+    assert_int_equal(forms, subjects - 1);
 }
 
 /* Fewer choices or spacings, or another spacing of the reference, are selected. There is a reference only if runs are

@@ -95,6 +95,9 @@ static sb_status begin(const options *o, const sb_store *store, sb_contest_repor
                     "--choice %s: no selected scene has such a choice at the selected spacings, expected a part of a "
                     "name of --list",
                     o->selection.choice);
+    else if (status == SB_OK && report->count == 0 && !(o->selection.spacing > 0))
+        status = sb_fail(error, SB_BAD_INPUT, "--quick: %s has no quick form, expected a scene that has one",
+                         sb_subjects[o->subjects.rows[0]].name);
     else if (status == SB_OK && report->count == 0)
         status = sb_fail(error, SB_BAD_INPUT,
                          "--spacing %g: no selected scene has this spacing, expected one of the report's tables (m)",

@@ -46,6 +46,14 @@ const sb_subject sb_subjects[] = {
      .of = &sb_case_front_koshizuka, .full = {0.0146, 0.0073, 0.00365}, .quick = {0.0146}, .slow = true,
      .errors = {{"front, digitisation a", "%", "front, mean distance, digitisation a", NULL},
                 {"front, digitisation b", "%", "front, mean distance, digitisation b", NULL}}},
+    {.name = "wave-basin", .title = "Regular waves in the basin of Wen et al., 3D, 17 s",
+     .what = "difference from Stokes' theory of fifth order with one fitted phase, over the last five periods: root mean "
+             "square relative to the range, and height",
+     .of = &sb_case_wave_basin, .full = {0.04}, .settings = sb_plain_settings, .slow = true,
+     .errors = {{"surface at 6 m", "%", "surface at 6 m", NULL},
+                {"height at 6 m", "%", "height at 6 m", NULL},
+                {"pressure at half depth", "%", "pressure 0.25 m above the bed", NULL},
+                {"u at half depth", "%", "u 0.25 m above the bed", NULL}}},
     {.name = "plant", .title = "A 25 m wave at a coastal plant, 90 s",
      .what = "difference from the run of the default preset at the reference spacing; impulse and peak are horizontal, for "
              "twelve buildings: sum of the differences divided by the sum of the reference values",

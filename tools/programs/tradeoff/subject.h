@@ -19,7 +19,7 @@ typedef struct sb_subject {
     const char *name, *title; /* NULL ends the table */
     const char *what;         /* explanation of its errors, without full stop */
     const sb_case *of;        /* case with its scene and figures */
-    double full[SB_SUBJECT_SPACINGS + 1], quick[SB_SUBJECT_SPACINGS + 1]; /* m, ended by 0 */
+    double full[SB_SUBJECT_SPACINGS + 1], quick[SB_SUBJECT_SPACINGS + 1]; /* m, ended by 0; no quick form: none */
     double full_reference, quick_reference;         /* m, spacing of the reference run; 0: figures have references */
     const char *const *settings;                    /* of all its runs; NULL: none */
     bool slow;                                      /* slow choices are affordable */
