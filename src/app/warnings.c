@@ -1,6 +1,7 @@
 #include "app/warnings.h"
 
 #include "app/check_measures.h"
+#include "app/check_numerics.h"
 #include "app/check_tension.h"
 #include "app/check_zones.h"
 #include "app/wave_warnings.h"
@@ -137,6 +138,7 @@ sb_status sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void
                        "sides of kind periodic");
     sb_status status = sb_wave_warnings(scene, visit, context, error);
     if (status == SB_OK) status = warn_of_reflections(scene, visit, context, error);
+    sb_numerics_warnings(scene, visit, context);
     sb_tension_warnings(scene, visit, context);
     sb_measure_warnings(scene, visit, context);
     sb_zone_warnings(scene, visit, context);

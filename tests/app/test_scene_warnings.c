@@ -9,6 +9,8 @@
 #define TANK                                                                                                           \
     "title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\nmeasure: {interval: 0.01}\noutput: {plots: false}\n"
 
+#define STILL TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
+
 #define WAVES_BY(law)                                                                                                  \
     TANK "domain: {min: [-1, 0], max: [4, 0.8]}\nwater: {level: 0.5, seed: [1, 0.2]}\n"                                \
          "bodies: [{name: paddle, shape: box, min: [-0.5, 0], max: [0, 0.7]}]\n"                                       \
@@ -71,6 +73,13 @@ static const struct {
      "likewise \"away\"", "5 x 2 x 2 m, from (90, -1, 0)"},
     {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\nfluid: {surface_tension: 0.0728}\n",
      "fluid.surface_tension: 0.0728 N/m acts below 0.00272 m", "expected a resolution below 0.00136 m"},
+    {STILL "numerics: {relaxation: 0.3}\n", "numerics.relaxation: 0.3 has no effect",
+     "expected solver: jacobi, or no such key"},
+    {STILL "numerics: {smagorinsky: 0.12}\n", "numerics.smagorinsky: 0.12 has no effect", "turbulence: sps"},
+    {STILL "numerics: {sound_speed: 30}\n", "numerics.sound_speed: 30 has no effect", "artificial_viscosity"},
+    {STILL "numerics: {wall_beta: 0.5}\n", "numerics.wall_beta: 0.5 has no effect", "walls: dynamic"},
+    {STILL "numerics: {preset: wen, max_iterations: 80}\n", "numerics.max_iterations: 80 has no effect",
+     "expected a solver other than wcsph"},
     {TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\nfoam: {enabled: true}\n",
      "foam.enabled: true, but the run draws no pictures", "expected render.interval or output.particle_interval"},
     {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\noutput: {plots: false}\n"
@@ -208,6 +217,22 @@ static void right_sponges_give_no_warnings(void **state)
     outcome_free(&o);
 }
 
+/* Numbers that a run uses, and those of presets that it does not. */
+static void right_numerics_give_no_warnings(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {
+        STILL "numerics: {solver: jacobi, relaxation: 0.3, turbulence: sps, smagorinsky: 0.12}\n",
+        STILL "numerics: {artificial_viscosity: 0.01, sound_speed: 30, max_iterations: 80}\n",
+        STILL "numerics: {preset: paper, solver: cg}\n", STILL "numerics: {preset: wen, wall_beta: 0.5}\n"};
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        write_text("still.yaml", scenes[i]);
+        outcome o = RUN(0, "check", "still.yaml");
+        assert_null(strstr(o.out, "has no effect"));
+        outcome_free(&o);
+    }
+}
+
 /* Water a third of a particle spacing deep over a shelf is known before the run. Two particles on the floor are a
    spacing deep by the scene, but too few for a surface elevation: this is known only at the end. */
 static void gauges_that_stay_empty_are_reported_once(void **state)
@@ -240,9 +265,8 @@ static void gauges_that_stay_empty_are_reported_once(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_and_run_give_the_same_warnings),
-        cmocka_unit_test(right_seas_give_no_warnings),
-        cmocka_unit_test(right_sponges_give_no_warnings),
+        cmocka_unit_test(check_and_run_give_the_same_warnings),     cmocka_unit_test(right_seas_give_no_warnings),
+        cmocka_unit_test(right_sponges_give_no_warnings),           cmocka_unit_test(right_numerics_give_no_warnings),
         cmocka_unit_test(gauges_that_stay_empty_are_reported_once),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);

@@ -1,0 +1,48 @@
+#include "app/check_numerics.h"
+
+#include "scene/key.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static double value_of(const sb_numerics *n, const sb_key *key)
+{
+    const char *field = (const char *)n + key->offset;
+    return key->type == SB_KEY_INTEGER ? *(const int *)field : *(const double *)field;
+}
+
+static bool is_of_preset(const sb_scene *scene, const sb_key *key)
+{
+    const char *usual = sb_key_default(key, scene->numerics.preset, scene->dimensions);
+    return value_of(&scene->numerics, key) == strtod(usual, NULL);
+}
+
+void sb_numerics_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
+{
+    const sb_numerics *n = &scene->numerics;
+    const bool explicit = n->solver == SB_SOLVER_WCSPH;
+    const bool sound = explicit || n->artificial_viscosity > 0 || n->wall_friction > 0;
+    const struct {
+        const char *key;
+        bool unused;
+        const char *needed;
+    } rows[] = {
+        {"tolerance", explicit, "a solver other than wcsph"},
+        {"min_iterations", explicit, "a solver other than wcsph"},
+        {"max_iterations", explicit, "a solver other than wcsph"},
+        {"warm_start", explicit, "a solver other than wcsph"},
+        {"source_relaxation", explicit, "a solver other than wcsph"},
+        {"relaxation", n->solver != SB_SOLVER_JACOBI, "solver: jacobi"},
+        {"wall_beta", n->walls != SB_WALLS_DYNAMIC, "walls: dynamic"},
+        {"smagorinsky", n->turbulence != SB_TURBULENCE_SPS, "turbulence: sps"},
+        {"sound_speed", !sound, "artificial_viscosity or wall_friction above 0"},
+    };
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
+        const sb_key *key = sb_table_find(&sb_numerics_table, rows[r].key);
+        char text[200];
+        if (!rows[r].unused || is_of_preset(scene, key)) continue;
+        snprintf(text, sizeof text, "numerics.%s: %g has no effect; expected %s, or no such key", key->name,
+                 value_of(n, key), rows[r].needed);
+        visit(context, text);
+    }
+}
