@@ -1,0 +1,20 @@
+/* Steady waves of any length by a Fourier series of the stream function [Rienecker and Fenton 1981, J. Fluid Mech.
+   104]: no expansion in the height, so that Stokes' and cnoidal waves are the same problem. */
+#ifndef SB_STEADY_WAVE_H
+#define SB_STEADY_WAVE_H
+
+#include <stdbool.h>
+
+/* A wave in a closed flume, where no water is carried on average. Lengths in m, speeds in m/s. */
+typedef struct sb_steady_wave {
+    double length;
+    double speed;    /* of the crests over the ground */
+    double current;  /* mean of the velocity at a fixed place below the troughs, negative */
+    double first;    /* amplitude of the first harmonic of the surface */
+    double residual; /* largest error of the equations, in units of depth and gravity */
+} sb_steady_wave;
+
+/* False: there is no such wave, or none is found. */
+bool sb_steady_wave_of(double height, double period, double depth, double gravity, sb_steady_wave *wave);
+
+#endif

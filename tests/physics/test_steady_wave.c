@@ -1,0 +1,73 @@
+/* Steady waves by a Fourier series: they are those of linear theory, of Stokes' fifth order and of cnoidal theory where
+   these are right. */
+#include "check.h"
+#include "physics/cnoidal.h"
+#include "physics/dispersion.h"
+#include "physics/steady_wave.h"
+#include "physics/stokes.h"
+
+static const double g = 9.81;
+
+static void low_waves_are_linear(void **state)
+{
+    (void)state;
+    for (double period = 0.8; period < 8; period *= 1.6) {
+        sb_steady_wave wave;
+        assert_true(sb_steady_wave_of(1e-5, period, 1, g, &wave));
+        assert_near(wave.length, 2 * M_PI / sb_wave_number(period, 1, g), 1e-6 * wave.length);
+        assert_near(wave.first, 5e-6, 1e-9);
+        assert_near(wave.speed, wave.length / period, 1e-9);
+    }
+}
+
+/* No water is carried: the current is minus what the wave of theory carries over the depth, g H^2/(8 c d) to second
+   order. Fenton's series is right to 1e-4 here. */
+static void waves_of_middle_depth_are_stokes_waves(void **state)
+{
+    (void)state;
+    static const double cases[][2] = {{0.04, 2.3}, {0.25, 2.3}, {0.15, 1.5}, {0.1, 1.2}}; /* H, T in m, s; depth 1 m */
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        sb_steady_wave wave;
+        sb_stokes stokes;
+        assert_true(sb_steady_wave_of(cases[i][0], cases[i][1], 1, g, &wave));
+        assert_int_equal(sb_stokes_create(5, cases[i][0], wave.length, 1, g, &stokes, NULL), SB_OK);
+        assert_near(stokes.celerity + wave.current, wave.speed, 1e-4 * wave.speed);
+        const double carried = g * cases[i][0] * cases[i][0] / (8 * wave.speed);
+        const double steep = 2 * M_PI * cases[i][0] / wave.length;
+        assert_near(wave.current, -carried, steep * steep * carried);
+        assert_true(wave.residual < 1e-10);
+    }
+}
+
+/* The error of cnoidal theory is of second order in H/d. */
+static void low_long_waves_are_cnoidal(void **state)
+{
+    (void)state;
+    for (double height = 0.01; height < 0.1; height *= 2) {
+        sb_steady_wave wave;
+        sb_cnoidal cnoidal;
+        assert_true(sb_steady_wave_of(height, 12, 1, g, &wave));
+        assert_int_equal(sb_cnoidal_of_period(height, 12, 1, g, &cnoidal, NULL), SB_OK);
+        assert_near(wave.length, cnoidal.length, 2 * height * height * wave.length);
+    }
+}
+
+static void waves_that_break_are_none(void **state)
+{
+    (void)state;
+    sb_steady_wave wave;
+    assert_false(sb_steady_wave_of(0.95, 2.3, 1, g, &wave));
+    assert_false(sb_steady_wave_of(0, 2.3, 1, g, &wave));
+    assert_false(sb_steady_wave_of((double)NAN, 2.3, 1, g, &wave));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(low_waves_are_linear),
+        cmocka_unit_test(waves_of_middle_depth_are_stokes_waves),
+        cmocka_unit_test(low_long_waves_are_cnoidal),
+        cmocka_unit_test(waves_that_break_are_none),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
