@@ -6,13 +6,14 @@
 #include "app/check_zones.h"
 #include "app/wave_warnings.h"
 #include "base/memory.h"
-#include "physics/dispersion.h"
 #include "physics/reflection.h"
+#include "physics/steady_wave.h"
 #include "physics/wavemaker.h"
 #include "sim/sim.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Gauges may not tell free from bound waves: in shallow water both have the same speed. */
 static void warn_of_bound(const sb_reflection_set *set, const double *places, int harmonic, double number, double first,
@@ -43,18 +44,41 @@ static void warn_of_window(const sb_scene *scene, const sb_reflection_set *set, 
     visit(context, text);
 }
 
+/* Waves of a wave maker that are longer or shorter than the split takes them for seem to be reflected. */
+static void warn_of_length(const sb_scene *scene, const sb_reflection_set *set, sb_warning_visit *visit, void *context)
+{
+    static const double enough = 0.005;
+    char text[400];
+    for (size_t w = 0; w < scene->wavemaker_count; w++) {
+        const sb_wavemaker_parameters *law = &scene->wavemakers[w].law;
+        const double length = 2 * M_PI / sb_reflection_number(scene, set, 1);
+        sb_steady_wave wave;
+        if (strcmp(law->kind->name, "regular") != 0 || fabs(law->period / set->period - 1) > enough) continue;
+        if (!sb_steady_wave_of(law->height, law->period, set->depth, scene->fluid.gravity, &wave)) continue;
+        if (fabs(length / wave.length - 1) <= enough) continue;
+        snprintf(
+            text, sizeof text,
+            "measure.reflections %s: waves of \"%s\" are %.4g m long in a closed flume of this depth, and the split "
+            "has %.4g m: it reports waves that come back where there are none; expected wavelength: %.4g",
+            set->name, scene->wavemakers[w].name, wave.length, length, wave.length);
+        visit(context, text);
+        return;
+    }
+}
+
 /* Gauges near multiples of half a wavelength apart cannot tell incident from reflected waves. */
 static sb_status warn_of_reflections(const sb_scene *scene, sb_warning_visit *visit, void *context, sb_error *error)
 {
     for (size_t r = 0; r < scene->measure.reflection_count; r++) {
         const sb_reflection_set *set = &scene->measure.reflections[r];
         warn_of_window(scene, set, visit, context);
+        warn_of_length(scene, set, visit, context);
         double *places = sb_alloc(set->gauge_count, sizeof *places);
         if (!places) return sb_fail_memory(error, "gauges of reflections");
         for (size_t i = 0; i < set->gauge_count; i++) places[i] = sb_reflection_place(scene, set, i);
-        const double first = sb_wave_number(set->period, set->depth, scene->fluid.gravity);
+        const double first = sb_reflection_number(scene, set, 1);
         for (int h = 1; h <= set->harmonics; h++) {
-            const double number = sb_wave_number(set->period / h, set->depth, scene->fluid.gravity);
+            const double number = sb_reflection_number(scene, set, h);
             char text[400];
             if (set->bound && h > 1) {
                 warn_of_bound(set, places, h, number, first, visit, context);
@@ -110,10 +134,11 @@ sb_status sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void
     for (size_t w = 0; w < scene->wavemaker_count; w++) {
         const sb_wavemaker_parameters *law = &scene->wavemakers[w].law;
         if (isinf(law->start) && !scene->control.enabled) {
-            snprintf(text, sizeof text,
-                     "wave maker \"%s\": its start waits for a command, and commands are off: it never moves; expected "
-                     "control.enabled: true, or --control",
-                     scene->wavemakers[w].name);
+            snprintf(
+                text, sizeof text,
+                "wave maker \"%s\": its start waits for a command, and commands are off: it makes no waves; expected "
+                "control.enabled: true, or --control",
+                scene->wavemakers[w].name);
             visit(context, text);
         }
         const char *warning = law->kind->warning ? law->kind->warning(law) : NULL;

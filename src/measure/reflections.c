@@ -2,8 +2,10 @@
    split at the end of a window. */
 #include "base/memory.h"
 #include "measure/state.h"
-#include "physics/dispersion.h"
 #include "physics/reflection.h"
+
+/* The last row of a period may be missing. */
+static const double LEAST_PERIODS = 0.9;
 
 static size_t sums_of(const sb_reflection_set *set)
 {
@@ -105,10 +107,10 @@ static sb_status split_all(const sb_measure *measure, size_t index, const double
         return sb_fail_memory(error, "measure.reflections");
     }
     const size_t fitted = fit_gauges(measure, set, sums, &s), n = (size_t)set->harmonics;
-    const double first = sb_wave_number(set->period, set->depth, measure->scene->fluid.gravity);
+    const double first = sb_reflection_number(measure->scene, set, 1);
     for (size_t h = 0; h < n; h++) {
         const double period = set->period / (double)(h + 1);
-        const double number = sb_wave_number(period, set->depth, measure->scene->fluid.gravity);
+        const double number = sb_reflection_number(measure->scene, set, (int)h + 1);
         for (size_t g = 0; g < fitted; g++) {
             s.cosine[g] = s.cosines[g * n + h];
             s.sine[g] = s.sines[g * n + h];
@@ -164,6 +166,7 @@ sb_status sb_measure_reflections(sb_measure *measure, const sb_reflection_record
     for (size_t i = 0; status == SB_OK && i < measure->scene->measure.reflection_count; i++) {
         const sb_reflection_set *set = &measure->scene->measure.reflections[i];
         const split_state *state = &measure->splits[i];
+        if (state->last - set->start < LEAST_PERIODS * set->period) continue; /* harmonics cannot be told apart */
         status = split_all(measure, i, state->whole, set->start, state->last, measure->split_rows + *count, error);
         *count += (size_t)set->harmonics;
     }

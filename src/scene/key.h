@@ -36,8 +36,8 @@ enum {
     SB_KEY_PRESET = 128,    /* the default depends on the numerics preset */
     SB_KEY_FREE = 256,      /* changes no state, measurement or frame; not part of the identity */
     SB_KEY_LATER =
-        512 /* switch, choice or place that did not exist at first: not part of the identity while it is
-               false, its first word or (0, 0), so that checkpoints and results of earlier builds stay valid */
+        512 /* switch, choice, number or place that did not exist at first: not part of the identity while it is
+               false, its first word, 0 or (0, 0), so that checkpoints and results of earlier builds stay valid */
 };
 
 typedef struct sb_table sb_table;

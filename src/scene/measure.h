@@ -54,6 +54,7 @@ typedef struct sb_reflection_set {
     double period; /* s */
     int harmonics; /* period, period/2, ..., period/harmonics are split */
     double depth;  /* m, still-water depth, for the wave numbers */
+    double length; /* m, of the first harmonic; 0: that of linear theory */
     double start;  /* s */
     double window; /* s, at least one period */
     bool bound;    /* harmonics above the first have free and bound waves; at least 4 gauges */

@@ -144,6 +144,10 @@ size_t sb_scene_gauge(const sb_scene *scene, const char *name);
 /* Distance of gauge i of a set from its first gauge, along the line to the last one, m. */
 double sb_reflection_place(const sb_scene *scene, const sb_reflection_set *set, size_t i);
 
+/* Wave number of free waves of a harmonic of the set's period, 1/m: by linear theory, or that of the given wavelength.
+ */
+double sb_reflection_number(const sb_scene *scene, const sb_reflection_set *set, int harmonic);
+
 /* The sides' names in a scene: "x_min" and so on. */
 extern const char *const sb_side_names[SB_SIDES];
 

@@ -1,3 +1,4 @@
+#include "physics/dispersion.h"
 #include "scene/reader.h"
 
 #include <math.h>
@@ -33,6 +34,12 @@ double sb_reflection_place(const sb_scene *scene, const sb_reflection_set *set, 
     return along;
 }
 
+double sb_reflection_number(const sb_scene *scene, const sb_reflection_set *set, int harmonic)
+{
+    if (harmonic == 1 && set->length > 0) return 2 * M_PI / set->length;
+    return sb_wave_number(set->period / harmonic, set->depth, scene->fluid.gravity);
+}
+
 /* clang-format off */
 static const sb_key name_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_gauge_name, name), .flags = SB_KEY_REQUIRED,
@@ -53,6 +60,10 @@ static const sb_key keys[] = {
      .fallback = "3", .doc = "Number of components: the period and its fractions 1/2, 1/3, ..."},
     {.name = "depth", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_reflection_set, depth), .unit = "m", .min = 0,
      .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Still-water depth at the gauges."},
+    {.name = "wavelength", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_reflection_set, length), .unit = "m",
+     SB_KEY_NOT_NEGATIVE, .fallback = "0", .flags = SB_KEY_LATER,
+     .doc = "Wavelength of the first harmonic; 0: that of linear theory. High and long waves are longer: `check` says "
+            "how long those of a wave maker are."},
     {.name = "bound", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_reflection_set, bound), .fallback = "false",
      .flags = SB_KEY_LATER,
      .doc = "For regular waves, with four or more gauges: harmonics above the first are split into free waves and waves "

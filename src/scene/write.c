@@ -226,6 +226,7 @@ static bool is_as_before(const sb_key *key, const void *item)
     int choice = 0;
     if (!(key->flags & SB_KEY_LATER)) return false;
     if (key->type == SB_KEY_SWITCH) return !*(const bool *)field;
+    if (key->type == SB_KEY_NUMBER) return *(const double *)field == 0;
     if (key->type == SB_KEY_PLACE) return ((const double *)field)[0] == 0 && ((const double *)field)[1] == 0;
     memcpy(&choice, field, sizeof choice);
     return choice == 0;
