@@ -3,6 +3,7 @@
 #include "app/check_measures.h"
 
 #include "output/wave_table.h"
+#include "physics/eurotop.h"
 
 #include <stdio.h>
 
@@ -26,6 +27,14 @@ static void warn_of_waves(const sb_scene *scene, sb_warning_visit *visit, void *
             waves->start, scene->duration);
         visit(context, text);
     }
+    const double left = scene->duration - waves->start;
+    if (left > 0 && waves->period > left) {
+        snprintf(text, sizeof text,
+                 "measure.waves.period: %g s is longer than the %g s from measure.waves.start to the end of the run: "
+                 "there are no harmonics; expected an earlier start, a longer duration or a shorter period",
+                 waves->period, left);
+        visit(context, text);
+    }
     if (waves->period > 0 && waves->period < least * (1 - 1e-9)) {
         snprintf(text, sizeof text,
                  "measure.waves.period: the last of the five harmonics of %g s has less than two rows of "
@@ -36,11 +45,28 @@ static void warn_of_waves(const sb_scene *scene, sb_warning_visit *visit, void *
     }
 }
 
+/* EurOtop has another formula for slopes behind a shallow foreshore, which breaks the waves. */
+static void warn_of_foreshore(const sb_scene *scene, const sb_flow_plane *plane, sb_warning_visit *visit, void *context)
+{
+    char text[400];
+    const sb_eurotop_settings *e = &plane->eurotop;
+    if (!(e->height > 0 && e->slope > 0 && e->slope <= SB_EUROTOP_STEEP)) return;
+    const double breaker = sb_eurotop_breaker(e->height, e->slope, e->period, scene->fluid.gravity);
+    if (breaker < SB_EUROTOP_SHALLOW) return;
+    snprintf(text, sizeof text,
+             "measure.planes %s: eurotop: the breaker parameter of %.3g is that of waves that broke on a shallow "
+             "foreshore, for which EurOtop has another formula: the rate is not comparable; expected below %g, by a "
+             "shorter period, higher waves or a gentler slope",
+             plane->name, breaker, SB_EUROTOP_SHALLOW);
+    visit(context, text);
+}
+
 static void warn_of_rates(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
     char text[400];
     for (size_t p = 0; p < scene->measure.plane_count; p++) {
         const sb_flow_plane *plane = &scene->measure.planes[p];
+        warn_of_foreshore(scene, plane, visit, context);
         if (!(plane->eurotop.height > 0) || plane->eurotop.start < scene->duration) continue;
         snprintf(text, sizeof text,
                  "measure.planes[%zu].eurotop.start: %g s is not before the end of the run at %g s: the rate of \"%s\" "

@@ -9,9 +9,19 @@
    height: H_m0 of the incoming waves, m; freeboard: of the crest above the still level, R >= 0, m. */
 double sb_eurotop_vertical(double height, double freeboard, double gravity);
 
-/* A smooth slope without a berm in waves that come head-on (eq. 5.10 with its upper limit): q/sqrt(g H^3) is the
-   smaller of 0.023/sqrt(s) x exp(-(2.7 R/(x H))^1.3) and 0.09 exp(-(1.5 R/H)^1.3), with x = s/sqrt(2 pi H/(g T^2)).
-   slope: s, its tangent, > 0; period: T_m-1,0, s. */
+/* Slopes above it are steep. */
+#define SB_EUROTOP_STEEP 0.5
+/* Breaker parameter x from which a slope has a shallow foreshore (eq. 5.15), which is not here. */
+#define SB_EUROTOP_SHALLOW 7.0
+
+/* Breaker parameter s/sqrt(2 pi H/(g T^2)). */
+double sb_eurotop_breaker(double height, double slope, double period, double gravity);
+
+/* A smooth slope without a berm in waves that come head-on. Up to 1:2 (eq. 5.10 with its upper limit 5.11):
+   q/sqrt(g H^3) is the smaller of 0.023/sqrt(s) x exp(-(2.7 R/(x H))^1.3) and 0.09 exp(-(1.5 R/H)^1.3), with
+   x the breaker parameter. Steeper ones (eq. 5.18): a exp(-(b R/H)^1.3), a = 0.09 - 0.01 (2 - 1/s)^2.1,
+   b = 1.5 + 0.42 (2 - 1/s)^1.5, at most 2.35; between the limit of 1:2 and the vertical wall.
+   slope: s, its tangent, > 0; period: T_m-1,0, s, not used for steep slopes. */
 double sb_eurotop_slope(double height, double freeboard, double slope, double period, double gravity);
 
 #endif

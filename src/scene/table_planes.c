@@ -1,5 +1,7 @@
 #include "scene/table_planes.h"
 
+#include "physics/eurotop.h"
+
 #include <math.h>
 
 sb_status sb_table_refuse_outside(sb_reader *reader, const sb_yaml *map, const char *key)
@@ -19,6 +21,19 @@ bool sb_table_meets_domain(const sb_scene *scene, double ax, double ay, double b
     return !disjoint(ax, bx, d->min.x, d->max.x) && (scene->dimensions == 2 || !disjoint(ay, by, d->min.y, d->max.y));
 }
 
+/* Shortens the plane, in 3D, to the part within an interval of one axis: water appears once more beyond periodic sides,
+   and none is beyond walls. a, b: the ends along the axis; other_a, other_b: along the other one. */
+static void clip(double low, double high, double *a, double *b, double *other_a, double *other_b)
+{
+    const double a0 = *a, b0 = *b, o0 = *other_a, p0 = *other_b;
+    if (a0 == b0) return;
+    const double from = (fmin(fmax(a0, low), high) - a0) / (b0 - a0), to = (fmin(fmax(b0, low), high) - a0) / (b0 - a0);
+    *a = fmin(fmax(a0, low), high);
+    *b = fmin(fmax(b0, low), high);
+    *other_a = o0 + from * (p0 - o0);
+    *other_b = to < 1 ? o0 + to * (p0 - o0) : p0;
+}
+
 enum { RECORDED = 1 };
 
 static unsigned plane_variant(const void *item, const sb_yaml *map)
@@ -34,10 +49,10 @@ static const sb_key eurotop_keys[] = {
      .doc = "Significant height H_m0 of the incoming waves at the structure's toe; 0: the rate is not compared."},
     {.name = "crest", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, crest), .unit = "m", SB_KEY_ANY,
      .derived = "z_min of the plane", .doc = "z of the structure's crest, above water.level."},
-    {.name = "slope", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, slope), SB_KEY_NOT_NEGATIVE,
+    {.name = "slope", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, slope), .min = 0, .max = 20,
      .fallback = "0", .doc = "Tangent of the structure's smooth slope; 0: a vertical wall."},
     {.name = "period", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, period), .unit = "s",
-     SB_KEY_NOT_NEGATIVE, .fallback = "0", .doc = "Spectral period T_m-1,0 of the waves; needed for a slope."},
+     SB_KEY_NOT_NEGATIVE, .fallback = "0", .doc = "Spectral period T_m-1,0 of the waves; needed for slopes up to 1:2."},
     {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, start), .unit = "s",
      SB_KEY_NOT_NEGATIVE, .fallback = "0", .doc = "Time from which the rate is the mean."},
 };
@@ -50,7 +65,7 @@ static const sb_key plane_keys[] = {
     {.name = "name", .type = SB_KEY_NAME, SB_KEY_AT(sb_flow_plane, name), .flags = SB_KEY_REQUIRED,
      .doc = "Unique name of the plane."},
     {.name = "from", .type = SB_KEY_PLACE, SB_KEY_AT(sb_flow_plane, ax), .unit = "m", SB_KEY_ANY,
-     .flags = SB_KEY_REQUIRED, .doc = "One end of the plane's footprint, [x, y]; [x] in 2D."},
+     .flags = SB_KEY_REQUIRED, .doc = "One end of the plane's footprint, [x, y]; [x] in 2D. The part within the domain counts."},
     {.name = "to", .type = SB_KEY_PLACE, SB_KEY_AT(sb_flow_plane, bx), .unit = "m", SB_KEY_ANY,
      .flags = SB_KEY_REQUIRED_3D, .derived = "as `from`",
      .doc = "The other end. Flow to the right, seen from the first end, is positive (+x in 2D)."},
@@ -117,9 +132,13 @@ static sb_status finish_eurotop(sb_reader *reader, const sb_yaml *map, sb_flow_p
         return sb_reader_fail(reader, map, "eurotop",
                               "a crest at %g m is below the still water at %g m, expected one above it", e->crest,
                               sea->level);
-    if (e->slope > 0 && !(e->period > 0))
+    if (!(e->crest >= plane->z_min && e->crest <= plane->z_max))
         return sb_reader_fail(reader, map, "eurotop",
-                              "period is missing, expected T_m-1,0 of the waves in s for a slope");
+                              "a crest at %g m is not at the height of the plane, expected %g to %g m", e->crest,
+                              plane->z_min, plane->z_max);
+    if (e->slope > 0 && e->slope <= SB_EUROTOP_STEEP && !(e->period > 0))
+        return sb_reader_fail(reader, map, "eurotop",
+                              "period is missing, expected T_m-1,0 of the waves in s for a slope up to 1:2");
     if (!(e->slope > 0) && e->period > 0)
         return sb_reader_fail(reader, map, "eurotop",
                               "period: %g s, but the rate at a vertical wall does not depend on it, expected a slope, "
@@ -148,6 +167,13 @@ static sb_status finish_plane(sb_reader *reader, const sb_yaml *map, void *item)
         return sb_table_refuse_outside(reader, map, sb_yaml_child(map, "z_min") ? "z_min" : "z_max");
     if (!sb_table_meets_domain(scene, plane->ax, plane->ay, plane->bx, plane->by))
         return sb_table_refuse_outside(reader, map, "from");
+    const sb_vec3 low = scene->domain.min, high = scene->domain.max;
+    if (scene->dimensions == 3) {
+        clip(low.x, high.x, &plane->ax, &plane->bx, &plane->ay, &plane->by);
+        if (disjoint(plane->ay, plane->by, low.y, high.y)) return sb_table_refuse_outside(reader, map, "from");
+        clip(low.y, high.y, &plane->ay, &plane->by, &plane->ax, &plane->bx);
+        if (plane->ax == plane->bx && plane->ay == plane->by) return sb_table_refuse_outside(reader, map, "from");
+    }
     sb_status status = finish_eurotop(reader, map, plane);
     return status == SB_OK && plane->record ? finish_record(reader, map, plane) : status;
 }

@@ -105,7 +105,7 @@ static const sb_key fluid_keys[] = {
      .unit = "m2/s", SB_KEY_NOT_NEGATIVE, .fallback = "1e-6",
      .doc = "Kinematic viscosity of the fluid; 0 leaves the term out."},
     {.name = "surface_tension", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_fluid_properties, surface_tension),
-     .unit = "N/m", SB_KEY_NOT_NEGATIVE, .fallback = "0",
+     .unit = "N/m", .min = 0, .max = 2, .fallback = "0",
      .doc = "Surface tension of the fluid against air, 0.0728 for clean water at 20 degrees C; 0 leaves the term out. "
             "It acts on drops and waves of millimetres and limits the time step; `check` prints Bond and Weber "
             "numbers. Not with periodic sides, `solver: wcsph` or a scene of `offshore` alone."},

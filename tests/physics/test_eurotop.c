@@ -23,6 +23,21 @@ static void values_worked_out_by_hand(void **state)
     assert_near(sb_eurotop_slope(1, 1 / 1.5, 0.5, period, g), 0.09 * 0.36787944 * 3.132092, 1e-6);
 }
 
+/* Steep slopes begin at the limit of 1:2 and end at the vertical wall. 1:1: a = 0.08, b = 1.92. */
+static void steep_slopes_are_between(void **state)
+{
+    (void)state;
+    for (double r = 0; r < 2.5; r += 0.5) {
+        const double limit = 0.09 * exp(-pow(1.5 * r, 1.3)) * sqrt(g);
+        assert_near(sb_eurotop_slope(1, r, 0.5 + 1e-9, 0, g), limit, 1e-6 * limit);
+        assert_near(sb_eurotop_slope(1, r, 1e9, 0, g), sb_eurotop_vertical(1, r, g),
+                    3e-3 * sb_eurotop_vertical(1, r, g));
+        assert_near(sb_eurotop_slope(1, r, 1, 0, g), 0.08 * exp(-pow(1.92 * r, 1.3)) * sqrt(g), 1e-12);
+        for (double s = 0.6; s < 5; s += 0.2)
+            assert_true(sb_eurotop_slope(1, r, s + 0.2, 0, g) <= sb_eurotop_slope(1, r, s, 0, g));
+    }
+}
+
 /* Rates are as sqrt(g H^3) at the same R/H and steepness, and fall with the crest. */
 static void scale_and_order(void **state)
 {
@@ -39,6 +54,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_worked_out_by_hand),
+        cmocka_unit_test(steep_slopes_are_between),
         cmocka_unit_test(scale_and_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

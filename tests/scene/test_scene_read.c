@@ -184,6 +184,21 @@ static void test_measure_and_cameras(void **state)
     sb_scene_free(&scene);
 }
 
+/* Of a plane that reaches beyond the domain the part within counts, with its direction. */
+static void test_planes_end_with_the_domain(void **state)
+{
+    (void)state;
+    sb_scene scene;
+    scene_must_read(SCENE_HEAD "measure:\n  planes: [{name: p, from: [1.5, 3], to: [1.5, -1]}, "
+                               "{name: q, from: [-1, -0.25], to: [3, 0.75]}, {name: r, from: [0, 0], to: [2, 1]}]\n",
+                    NULL, NULL, 0, &scene);
+    const sb_flow_plane *p = scene.measure.planes;
+    assert_true(p[0].ax == 1.5 && p[0].bx == 1.5 && p[0].ay == 1 && p[0].by == 0);
+    assert_true(p[1].ax == 0 && p[1].ay == 0 && p[1].bx == 2 && p[1].by == 0.5);
+    assert_true(p[2].ax == 0 && p[2].ay == 0 && p[2].bx == 2 && p[2].by == 1);
+    sb_scene_free(&scene);
+}
+
 static void test_aliases(void **state)
 {
     (void)state;
@@ -266,6 +281,7 @@ int main(void)
         cmocka_unit_test(test_files),
         cmocka_unit_test(test_two_dimensions),
         cmocka_unit_test(test_measure_and_cameras),
+        cmocka_unit_test(test_planes_end_with_the_domain),
         cmocka_unit_test(test_aliases),
         cmocka_unit_test(test_a_byte_order_mark),
         cmocka_unit_test(test_presets),
