@@ -16,7 +16,7 @@
 
 #include <math.h>
 
-/* X is right to 0.3 % at kd 1 and 2 % at kd 2.5. */
+/* What modes beyond N leave out falls as 1/N: 2 X(N) - X(N/2) is right to 0.1 % up to kd 10, and to 3 % at kd 50. */
 enum { MODES = 100 };
 
 static const double DEEPEST = 100; /* kd: beyond it hyperbolic functions overflow */
@@ -58,11 +58,11 @@ static double complex forcing(const mode *a, const mode *b, double omega, double
 }
 
 /* Integral of (R - R_0 exp(-2 i k_0 x)) cos Kx over x > 0. */
-static double complex forced(const mode all[], double omega, double gravity, double free)
+static double complex forced(const mode all[], int modes, double omega, double gravity, double free)
 {
     double complex sum = 0;
-    for (int j = 0; j <= MODES; j++)
-        for (int l = 0; l <= MODES; l++) {
+    for (int j = 0; j <= modes; j++)
+        for (int l = 0; l <= modes; l++) {
             if (j == 0 && l == 0) continue;
             const double complex decay = CMPLX(0, 1) * (all[j].number + all[l].number);
             sum += forcing(&all[j], &all[l], omega, gravity) * decay / (decay * decay + free * free);
@@ -70,23 +70,29 @@ static double complex forced(const mode all[], double omega, double gravity, dou
     return sum;
 }
 
-double complex sb_paddle_second(double height, double omega, double depth, double gravity)
+/* X by so many modes beside the wave. */
+static double complex motion_by(int modes, double height, double omega, double depth, double gravity)
 {
     const double complex i = CMPLX(0, 1);
     const double number = sb_wave_number(2 * M_PI / omega, depth, gravity);
     const double free = sb_wave_number(M_PI / omega, depth, gravity), y = omega * omega * depth / gravity;
-    if (number * depth > DEEPEST) return 0;
     const double complex motion = -0.5 * i * height / sb_piston_height_over_stroke(number * depth);
     mode all[MODES + 1];
     all[0] = mode_of(number, motion, omega, depth);
-    for (int j = 1; j <= MODES; j++) all[j] = mode_of(-i * sb_evanescent_root(j, y) / depth, motion, omega, depth);
+    for (int j = 1; j <= modes; j++) all[j] = mode_of(-i * sb_evanescent_root(j, y) / depth, motion, omega, depth);
     const double complex bound =
         forcing(&all[0], &all[0], omega, gravity) /
         (2 * gravity * number * csinh(2 * number * depth) - 4 * omega * omega * ccosh(2 * number * depth));
     double complex curved = 0; /* integral of cosh K P_xx */
-    for (int j = 0; j <= MODES; j++)
+    for (int j = 0; j <= modes; j++)
         curved -= all[j].number * all[j].number * all[j].coefficient * product(free, all[j].number, depth);
-    const double complex needed = cosh(free * depth) / gravity * forced(all, omega, gravity, free) +
+    const double complex needed = cosh(free * depth) / gravity * forced(all, modes, omega, gravity, free) +
                                   0.5 * motion * curved - 2 * i * number * bound * product(free, 2 * number, depth);
     return needed / (2 * i * omega * half_integral(free, depth));
+}
+
+double complex sb_paddle_second(double height, double omega, double depth, double gravity)
+{
+    if (sb_wave_number(2 * M_PI / omega, depth, gravity) * depth > DEEPEST) return 0;
+    return 2 * motion_by(MODES, height, omega, depth, gravity) - motion_by(MODES / 2, height, omega, depth, gravity);
 }
