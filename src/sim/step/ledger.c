@@ -50,11 +50,11 @@ void sb_ledger_close(sb_sim *sim)
     const double m = (double)sim->constant.mass, g = (double)sim->constant.gravity;
     const double dt = (double)(float)sim->state.time_step; /* in the precision that advanced the velocities */
     const double friction = m * s.friction * dt;
-    const bool viscous = sim->needs.viscosity || sim->needs.hyperviscosity;
+    const bool forces = sim->needs.viscosity || sim->needs.hyperviscosity || sim->needs.images;
     sb_ledger *ledger = &sim->state.ledger;
     ledger->bodies -= dt * (bodies.pressure + bodies.friction);
-    /* Without viscosity this value is only the rounding of v*. */
-    *(viscous ? &ledger->viscosity : &ledger->integration) += m * (s.forces + g * dt * s.fall) - friction;
+    /* Without viscosity and the hydrostatic push of images this value is only the rounding of v*. */
+    *(forces ? &ledger->viscosity : &ledger->integration) += m * (s.forces + g * dt * s.fall) - friction;
     ledger->friction += friction + dt * bodies.friction;
     ledger->pressure += m * (s.solve - s.contact + s.contact_bodies) + dt * bodies.pressure;
     ledger->contact += m * (s.contact - s.contact_bodies);
