@@ -133,6 +133,37 @@ static void test_report_of_kept_figures_keeps_table(void **state)
     sb_sheet_free(&sheet);
 }
 
+static void compare_nothing(const sb_case_run *runs, const sb_figures *of_each, size_t count, sb_figures *figures)
+{
+    (void)runs, (void)of_each, (void)count, (void)figures;
+}
+
+/* A judged run without the run that it is compared with is not within its targets: there is no figure. */
+static void test_a_missing_partner_is_told(void **state)
+{
+    (void)state;
+    char *written = NULL;
+    size_t length = 0;
+    const sb_case paired = {.name = "a", .title = "A", .headline = "force", .compare = compare_nothing};
+    const sb_plan alone = {.resolution = 0.1}, judged = {.resolution = 0.1, .judged = true};
+    sb_result runs[] = {{.request = {.of = &paired, .plan = &alone, .seed = 1}},
+                        {.request = {.of = &paired, .plan = &judged, .seed = 1}, .state = SB_RESULT_DONE}};
+    sb_case_results results = {.of = &paired, .count = 2, .runs = runs};
+    assert_true(sb_results_incomplete(&results));
+    FILE *out = open_memstream(&written, &length);
+    assert_non_null(out);
+    sb_report_summary_row(out, &results);
+    fclose(out);
+    assert_non_null(strstr(written, "0 of 0 | **incomplete**"));
+    free(written);
+    runs[1].state = SB_RESULT_NOT_RUN;
+    assert_false(sb_results_incomplete(&results));
+    runs[1].state = SB_RESULT_DONE;
+    sb_figure_report(&results.across, "force per height", "N/m", 1, 1, "%s", "");
+    assert_false(sb_results_incomplete(&results));
+    sb_figures_free(&results.across);
+}
+
 static void test_missing_table_is_empty(void **state)
 {
     (void)state;
@@ -162,6 +193,7 @@ int main(void)
         cmocka_unit_test(test_same_request_is_found),
         cmocka_unit_test(test_other_requests_and_own_runs_are_ignored),
         cmocka_unit_test(test_report_of_kept_figures_keeps_table),
+        cmocka_unit_test(test_a_missing_partner_is_told),
         cmocka_unit_test(test_missing_table_is_empty),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -8,7 +8,7 @@
 
 enum { LATE = 8 }; /* periods, the last ones of the run */
 
-/* When the first waves have passed the gauges and none has returned, in periods. */
+/* When the first waves have passed the gauges and less than 1 % of a wave has returned by linear theory, in periods. */
 typedef struct early {
     double first, last;
 } early;
@@ -55,7 +55,7 @@ static void evaluate(const sb_case_run *run, sb_figures *figures)
                     "that return, as complex amplitudes of the first harmonic",
                     when->first, when->last, LATE);
     sb_paddle_drift(run, figures);
-    sb_figure_report(figures, "waves that leave, first over aimed", "", 1, 2 * made / law->height, "before any return");
+    sb_figure_report(figures, "waves that leave, first over aimed", "", 1, 2 * made / law->height, "early, as above");
     sb_figure_report(figures, "waves that leave, last over first", "", (double)NAN, cabs(after.out) / made,
                      "amplitudes");
     sb_figure_report(figures, "waves that return, over those that leave", "", (double)NAN,
@@ -69,11 +69,12 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
 
 #define METHOD                                                                                                         \
     "Reference: none is needed. A paddle makes regular waves towards a wall four wavelengths away. Four gauges split " \
-    "the first\nharmonic by least squares, with phases: what leaves the paddle before anything has come back, and in " \
-    "the last eight periods.\nThe difference is what the paddle reflects. The other column is the same paddle with "   \
+    "the first\nharmonic by least squares, with phases: what leaves the paddle while less than 1 % has come back by "  \
+    "linear theory, and in the "                                                                                       \
+    "last eight periods.\nThe difference is what the paddle reflects. The other column is the same paddle with "       \
     "`absorb: false`; its waves need not be\nregular. The full form runs for 100 periods."
 
-/* from, to: periods before any return; shorter: duration of the quick form and of the paddle without absorption, s. */
+/* from, to: periods of `early`; shorter: duration of the quick form and of the paddle without absorption, s. */
 #define PADDLE(id, label, what_is, fine, coarse, from, to, shorter)                                                    \
     static const early early_##id = {from, to};                                                                        \
     static const char *const quick_##id[] = {"duration=" shorter, NULL};                                               \
@@ -94,6 +95,6 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
         .plot = plot};
 
 PADDLE(long, "kd0.3", "kd 0.3", 0.24, 0.48, 4.2, 7, "311.4")
-PADDLE(middle, "kd0.7", "kd 0.7", 0.56, 1.12, 4.5, 7.5, "226.5")
-PADDLE(short, "kd1.5", "kd 1.5", 0.8, 1.6, 5.5, 9.5, "218.7")
-PADDLE(deep, "kd3", "kd 3", 0.8, 1.6, 6.5, 11.5, "240.7")
+PADDLE(middle, "kd0.7", "kd 0.7", 0.56, 1.12, 4.5, 7, "226.5")
+PADDLE(short, "kd1.5", "kd 1.5", 0.8, 1.6, 5.5, 7, "218.7")
+PADDLE(deep, "kd3", "kd 3", 0.8, 1.6, 5.5, 6.5, "240.7")

@@ -29,12 +29,6 @@ static laboratory read_gauge(const sb_case_run *run, const char *gauge)
     return l;
 }
 
-/* a05 contradicts a04, and a02 stands beside the paddle. */
-static bool is_judged(const char *gauge)
-{
-    return strcmp(gauge, "a02") != 0 && strcmp(gauge, "a05") != 0;
-}
-
 static void figure_gauge(const sb_case_run *run, const char *gauge, sb_figures *figures)
 {
     const laboratory lab = read_gauge(run, gauge);
@@ -47,17 +41,11 @@ static void figure_gauge(const sb_case_run *run, const char *gauge, sb_figures *
     char quantity[SB_FIGURE_TEXT];
     for (int n = 0; n < JUDGED_HARMONICS; n++) largest = fmax(largest, lab.amplitude[n]);
     snprintf(quantity, sizeof quantity, "%s, height", gauge);
-    if (is_judged(gauge))
-        sb_figure_share(figures, quantity, "mm", 1e3 * lab.height, 1e3 * height, 1e3 * lab.height, 10, "%s", "");
-    else
-        sb_figure_report(figures, quantity, "mm", 1e3 * lab.height, 1e3 * height, "%s", "");
+    sb_figure_share(figures, quantity, "mm", 1e3 * lab.height, 1e3 * height, 1e3 * lab.height, 10, "%s", "");
     for (int n = 0; n < JUDGED_HARMONICS; n++) {
         snprintf(quantity, sizeof quantity, "%s, harmonic %d", gauge, n + 1);
-        if (is_judged(gauge))
-            sb_figure_share(figures, quantity, "mm", 1e3 * lab.amplitude[n], 1e3 * fit.amplitude[n], 1e3 * largest, 12,
-                            "%s", "");
-        else
-            sb_figure_report(figures, quantity, "mm", 1e3 * lab.amplitude[n], 1e3 * fit.amplitude[n], "%s", "");
+        sb_figure_share(figures, quantity, "mm", 1e3 * lab.amplitude[n], 1e3 * fit.amplitude[n], 1e3 * largest, 12,
+                        "%s", "");
     }
 }
 
@@ -102,9 +90,8 @@ const sb_case sb_case_bar = {
         "in 0.4 m "
         "of water. The\namplitudes of the last ten periods of the records are compared with those of the last five of "
         "the run; "
-        "no clock is needed, no\nfilter. Heights are crest minus trough of each period. Gauge a05 reads 7 % less than "
-        "a04 on the same flat bed, and a02 stands half a "
-        "wavelength from the paddle: both are only\nreported. Waves leave through a sponge from 24 m on.",
+        "no clock is needed, no\nfilter. Heights are crest minus trough of each period. Waves leave through a sponge "
+        "from 24 m on.",
     .scene = "../scenes/bar.yaml",
     .headline = "a15, harmonic 2",
     .full = {{.resolution = 0.01, .settings = plain}, {.resolution = 0.005, .judged = true, .settings = plain}},

@@ -12,7 +12,8 @@ static double reflected(const sb_case_run *run, int before)
 {
     const sb_wavemaker_parameters *law = &run->scene->wavemakers[0].law;
     const double last = run->scene->duration - before * WINDOW * law->period;
-    const sb_split split = sb_wave_fit_split(run, "a", law->period, law->depth, last - WINDOW * law->period, last);
+    const sb_split split =
+        sb_wave_fit_split(run, "a", law->period, sb_wave_fit_number(law), last - WINDOW * law->period, last);
     return 100 * split.reflected / split.incident;
 }
 
@@ -24,7 +25,7 @@ static void evaluate(const sb_case_run *run, sb_figures *figures)
     const double predicted = 100 * sb_sponge_reflection(sponge->profile, sponge->strength, 2 * M_PI / sponge->period,
                                                         sponge->depth, run->scene->fluid.gravity, sponge->length);
     const double last = run->scene->duration, first = last - WINDOWS * WINDOW * law->period;
-    const sb_split split = sb_wave_fit_split(run, "a", law->period, law->depth, first, last);
+    const sb_split split = sb_wave_fit_split(run, "a", law->period, sb_wave_fit_number(law), first, last);
     const double value = 100 * split.reflected / split.incident;
     sb_figure_below(figures, "reflected", "%", value, *limit,
                     "of the amplitude, first harmonic, over nine periods; in "

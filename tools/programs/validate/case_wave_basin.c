@@ -212,7 +212,8 @@ const sb_case sb_case_wave_basin = {
         "Bernoulli's\nequation. One phase is fitted for all: that of the first harmonic of the surface at 6 m. The "
         "last "
         "five periods of 17 s count; no\nfilter. The basin is that of Wen et al., section 4: 12 m by 2 m, periodic "
-        "across, push-plates of 0.1 m, a sponge of 3 m. The\npaper's places of measurement are not in its text; ours "
+        "across, push-plates of 0.1 m (0.2 m at 4 cm and in the quick form), a sponge of 3 m. The\npaper's places of "
+        "measurement are not in its text; ours "
         "are "
         "at 3, 6 and 11.5 m. The quick form is a slab of 0.4 m.",
     .scene = "../scenes/wave-basin.yaml",

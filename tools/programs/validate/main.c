@@ -75,7 +75,7 @@ static sb_status report(sb_store *store, const sb_validate_options *o, size_t *m
     for (size_t c = 0; c < what.count; c++) {
         size_t limited, passed;
         sb_results_count(&results[c], &limited, &passed);
-        if (sb_selection_has(&o->cases, c)) *missed += limited - passed;
+        if (sb_selection_has(&o->cases, c)) *missed += limited - passed + sb_results_incomplete(&results[c]);
         sb_case_results_free(&results[c]);
     }
     return status;

@@ -31,10 +31,10 @@ void sb_paddle_drift(const sb_case_run *run, sb_figures *figures)
     const sb_curve *offset = sb_run_curve(run, "absorbers.csv", maker->body, "time_s", "offset_m");
     const double drift = 100 * sb_curve_mean(offset, end - DRIFT_PERIODS * law->period, end) / stroke;
     static const char note[] = "mean displacement from the law over the last %d periods, over the stroke; largest in "
-                               "ten periods %.2g %%";
+                               "any such ten before %.2g %%";
     double most = 0;
-    for (double from = 0; from + DRIFT_PERIODS * law->period <= end; from += DRIFT_PERIODS * law->period)
-        most = fmax(most, fabs(sb_curve_mean(offset, from, from + DRIFT_PERIODS * law->period)));
+    for (double to = end; to >= DRIFT_PERIODS * law->period; to -= DRIFT_PERIODS * law->period)
+        most = fmax(most, fabs(sb_curve_mean(offset, to - DRIFT_PERIODS * law->period, to)));
     most *= 100 / stroke;
     if (end >= (DRIFT_AFTER - 0.1) * law->period)
         sb_figure_below(figures, "drift of the paddle", "%", fabs(drift), DRIFT_LIMIT, note, DRIFT_PERIODS, most);

@@ -196,6 +196,14 @@ sb_seed_spread sb_results_spread(const sb_case_results *results, const char *qua
     return finest;
 }
 
+bool sb_results_incomplete(const sb_case_results *results)
+{
+    size_t compared = 0;
+    for (size_t i = 0; i < results->count; i++)
+        compared += !results->runs[i].request.preset && results->runs[i].request.seed == 1;
+    return results->of->compare && compared > 1 && sb_results_judged(results) && results->across.count == 0;
+}
+
 void sb_results_count(const sb_case_results *results, size_t *limited, size_t *passed)
 {
     const sb_result *judged = sb_results_judged(results);

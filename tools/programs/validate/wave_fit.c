@@ -1,6 +1,7 @@
 #include "wave_fit.h"
 
 #include "physics/dispersion.h"
+#include "physics/steady_wave.h"
 
 #include <math.h>
 #include <string.h>
@@ -65,7 +66,14 @@ sb_curve *sb_wave_fit_gauge(const sb_case_run *run, const char *name)
     return sb_curve_new(run->made);
 }
 
-sb_split sb_wave_fit_split(const sb_case_run *run, const char *prefix, double period, double depth, double first,
+double sb_wave_fit_number(const sb_wavemaker_parameters *law)
+{
+    sb_steady_wave wave;
+    if (sb_steady_wave_of(law->height, law->period, law->depth, law->gravity, &wave)) return 2 * M_PI / wave.length;
+    return sb_wave_number(law->period, law->depth, law->gravity);
+}
+
+sb_split sb_wave_fit_split(const sb_case_run *run, const char *prefix, double period, double number, double first,
                            double last)
 {
     const sb_measure_settings *measure = &run->scene->measure;
@@ -78,7 +86,7 @@ sb_split sb_wave_fit_split(const sb_case_run *run, const char *prefix, double pe
         cosines[count] = fit.amplitude[0] * cos(fit.phase[0]);
         sines[count++] = fit.amplitude[0] * sin(fit.phase[0]);
     }
-    return sb_split_of(x, cosines, sines, count, sb_wave_number(period, depth, run->scene->fluid.gravity));
+    return sb_split_of(x, cosines, sines, count, number);
 }
 
 /* Volume that the wave carries per second and metre of width, m^2/s: the mean of the integral of u from the bed to the

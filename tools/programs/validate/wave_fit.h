@@ -29,9 +29,12 @@ sb_wave_range sb_wave_fit_range(const sb_curve *curve, double period, double fir
 /* Crest minus trough. */
 double sb_wave_fit_height(const sb_curve *curve, double period, double first, double last);
 
-/* Splits the first harmonic at all gauges whose names begin with `prefix` by linear theory for the depth. */
-sb_split sb_wave_fit_split(const sb_case_run *run, const char *prefix, double period, double depth, double first,
+/* Splits the first harmonic at all gauges whose names begin with `prefix`. number: of its waves, 1/m. */
+sb_split sb_wave_fit_split(const sb_case_run *run, const char *prefix, double period, double number, double first,
                            double last);
+
+/* Wave number of the law's regular waves in a closed flume, 1/m; of linear theory if there are no such steady waves. */
+double sb_wave_fit_number(const sb_wavemaker_parameters *law);
 
 /* The gauge's elevation above the still level, or an empty curve if the scene has no such gauge. */
 sb_curve *sb_wave_fit_gauge(const sb_case_run *run, const char *name);
