@@ -3,18 +3,18 @@
 #include "scene/key.h"
 
 #include <stdio.h>
-#include <stdlib.h>
+#include <string.h>
 
-static double value_of(const sb_numerics *n, const sb_key *key)
+enum { VALUE = 40 };
+
+/* Writes the value as a scene has it: a word or a number. */
+static void value_of(const sb_numerics *n, const sb_key *key, char text[VALUE])
 {
     const char *field = (const char *)n + key->offset;
-    return key->type == SB_KEY_INTEGER ? *(const int *)field : *(const double *)field;
-}
-
-static bool is_of_preset(const sb_scene *scene, const sb_key *key)
-{
-    const char *usual = sb_key_default(key, scene->numerics.preset, scene->dimensions);
-    return value_of(&scene->numerics, key) == strtod(usual, NULL);
+    if (key->type == SB_KEY_CHOICE)
+        snprintf(text, VALUE, "%s", key->words[*(const int *)field]);
+    else
+        snprintf(text, VALUE, "%g", key->type == SB_KEY_INTEGER ? *(const int *)field : *(const double *)field);
 }
 
 void sb_numerics_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
@@ -27,6 +27,10 @@ void sb_numerics_warnings(const sb_scene *scene, sb_warning_visit *visit, void *
         bool unused;
         const char *needed;
     } rows[] = {
+        {"tolerance_rule", explicit, "a solver other than wcsph"},
+        {"time_step_rule", explicit, "a solver other than wcsph"},
+        {"time_step_factor", explicit, "a solver other than wcsph"},
+        {"stress_memory", explicit, "a solver other than wcsph"},
         {"tolerance", explicit, "a solver other than wcsph"},
         {"min_iterations", explicit, "a solver other than wcsph"},
         {"max_iterations", explicit, "a solver other than wcsph"},
@@ -39,10 +43,11 @@ void sb_numerics_warnings(const sb_scene *scene, sb_warning_visit *visit, void *
     };
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
         const sb_key *key = sb_table_find(&sb_numerics_table, rows[r].key);
-        char text[200];
-        if (!rows[r].unused || is_of_preset(scene, key)) continue;
-        snprintf(text, sizeof text, "numerics.%s: %g has no effect; expected %s, or no such key", key->name,
-                 value_of(n, key), rows[r].needed);
+        char text[200], value[VALUE];
+        value_of(n, key, value);
+        if (!rows[r].unused || strcmp(value, sb_key_default(key, n->preset, scene->dimensions)) == 0) continue;
+        snprintf(text, sizeof text, "numerics.%s: %s has no effect; expected %s, or no such key", key->name, value,
+                 rows[r].needed);
         visit(context, text);
     }
 }

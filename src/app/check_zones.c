@@ -1,5 +1,7 @@
-/* Warns of sponges that begin outside of the domain, and of those that overlap. */
+/* Warns of sponges that begin outside of the domain, of those that overlap, and of those that reflect. */
 #include "app/check_zones.h"
+
+#include "physics/sponge.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -47,10 +49,37 @@ static void warn_of_overlap(const sb_scene *scene, const sb_sponge *a, const sb_
     visit(context, text);
 }
 
+/* Whether waves of a wave maker run towards the sponge's side. */
+static bool run_to(const sb_wavemaker_use *maker, const sb_sponge *sponge)
+{
+    const double along = sb_component(maker->direction, sponge->side / 2);
+    return (sponge->side % 2 ? along : -along) > 0.7;
+}
+
+/* A sponge made for other waves than those that run to it, or too short or too strong for them. */
+static void warn_of_reflection(const sb_scene *scene, const sb_sponge *sponge, sb_warning_visit *visit, void *context)
+{
+    static const double most = 0.2;
+    char text[400];
+    for (size_t w = 0; w < scene->wavemaker_count; w++) {
+        const double period = scene->wavemakers[w].law.period;
+        if (sponge->kind != SB_SPONGE_DAMPING || !(period > 0) || !run_to(&scene->wavemakers[w], sponge)) continue;
+        const double share = sb_sponge_reflection(sponge->profile, sponge->strength, 2 * M_PI / period, sponge->depth,
+                                                  scene->fluid.gravity, sponge->length);
+        if (!(share > most)) continue;
+        snprintf(text, sizeof text,
+                 "sponge \"%s\": by linear theory it reflects %.2g %% of waves of %.4g s, those of \"%s\"; expected a "
+                 "longer sponge, that period, or the strength that follows from it",
+                 sponge->name, 100 * share, period, scene->wavemakers[w].name);
+        visit(context, text);
+    }
+}
+
 void sb_zone_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
     for (size_t s = 0; s < scene->sponge_count; s++) {
         warn_of_beginning(scene, &scene->sponges[s], visit, context);
+        warn_of_reflection(scene, &scene->sponges[s], visit, context);
         for (size_t t = 0; t < s; t++) warn_of_overlap(scene, &scene->sponges[t], &scene->sponges[s], visit, context);
     }
 }

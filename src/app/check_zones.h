@@ -5,7 +5,8 @@
 #include "app/warning_visit.h"
 #include "scene/scene.h"
 
-/* Warns of sponges that begin outside of the domain, and of those that overlap. */
+/* Warns of sponges that begin outside of the domain, of those that overlap, and of those that reflect waves of the
+   scene. */
 void sb_zone_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context);
 
 #endif

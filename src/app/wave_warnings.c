@@ -14,7 +14,7 @@ static const double ENOUGH = 0.9;
 typedef struct group {
     size_t count;
     double *amplitude, *travel; /* any unit; s */
-    double ramp;                /* s */
+    double ramp, lasts;         /* s */
 } group;
 
 /* Part of the crest that comes in time, with the motion that the paddle has when each wave leaves. */
@@ -22,16 +22,18 @@ static double share_in_time(const group *g, double focus)
 {
     double sum = 0, all = 0;
     for (size_t i = 0; i < g->count; i++) {
-        const double left = focus - g->travel[i], s = g->ramp > 0 ? fmin(left / g->ramp, 1) : left >= 0;
+        const double left = focus - g->travel[i], until = fmin(left, g->lasts - left);
+        const double s = g->ramp > 0 ? fmin(until / g->ramp, 1) : until >= 0;
         all += g->amplitude[i];
         if (s > 0) sum += g->amplitude[i] * s * s * (3 - 2 * s);
     }
     return sum / all;
 }
 
-/* The share grows with the time, and is 1 after the ramp and the longest travel. */
-static double earliest_focus(const group *g)
+/* The share of a motion without end grows with the time, and is 1 after the ramp and the longest travel. */
+static double earliest_focus(const group *all)
 {
+    const group endless = {all->count, all->amplitude, all->travel, all->ramp, (double)INFINITY}, *g = &endless;
     double low = 0, high = 0;
     for (size_t i = 0; i < g->count; i++) high = fmax(high, g->travel[i] + g->ramp);
     for (int i = 0; i < 60; i++) {
@@ -51,8 +53,9 @@ static void warn_of_focus(const sb_wavemaker_use *maker, const group *g, sb_warn
     if (share >= ENOUGH) return;
     snprintf(text, sizeof text,
              "wave maker \"%s\": its focus at %g s is too early: by their group speeds waves with %.2g %% of the crest "
-             "come %g m far by then; expected a focus of at least %.3g s, or a shorter distance",
-             maker->name, maker->law.focus, 100 * share, maker->law.distance, earliest_focus(g));
+             "come %g m far by then; expected a focus of at least %.3g s, %s",
+             maker->name, maker->law.focus, 100 * share, maker->law.distance, earliest_focus(g),
+             isfinite(g->lasts) ? "a shorter distance, or a motion that lasts longer" : "or a shorter distance");
     visit(context, text);
 }
 
@@ -64,7 +67,8 @@ static sb_status visit_group(const sb_wavemaker_use *maker, const sb_paddle *pad
     sb_band_part *band = sb_alloc(facts->count, sizeof *band);
     group g = {.amplitude = sb_alloc(facts->count, sizeof *g.amplitude),
                .travel = sb_alloc(facts->count, sizeof *g.travel),
-               .ramp = facts->ramp};
+               .ramp = facts->ramp,
+               .lasts = law->lasts};
     const bool made = band && g.amplitude && g.travel;
     if (made) {
         g.count = paddle->kind->band(paddle->state, band, facts->count);
@@ -107,24 +111,76 @@ static void warn_of_start(const sb_scene *scene, const sb_wavemaker_use *maker, 
     if (isinf(maker->law.start) || maker->law.start < scene->duration) return;
     snprintf(
         text, sizeof text,
-        "wave maker \"%s\": it begins at %g s, and the run ends at %g s: it never moves; expected an earlier start "
+        "wave maker \"%s\": it begins at %g s, and the run ends at %g s: it makes no waves; expected an earlier start "
         "or a longer duration",
         maker->name, maker->law.start, scene->duration);
     visit(context, text);
 }
 
-/* A motion grows over the ramp and falls over the ramp before its end. */
-static void warn_of_ramp(const sb_wavemaker_use *maker, sb_warning_visit *visit, void *context)
+static void warn_of_late_focus(const sb_scene *scene, const sb_wavemaker_use *maker, sb_warning_visit *visit,
+                               void *context)
+{
+    char text[300];
+    const sb_wavemaker_parameters *law = &maker->law;
+    if (isinf(law->start) || law->start >= scene->duration || law->start + law->focus <= scene->duration) return;
+    snprintf(
+        text, sizeof text,
+        "wave maker \"%s\": its waves focus at %g s, after the end of the run at %g s; expected an earlier focus or "
+        "a longer duration",
+        maker->name, law->start + law->focus, scene->duration);
+    visit(context, text);
+}
+
+/* A motion grows over the ramp, and falls over the ramp before its end. duration: of the paddle's motion, s. */
+static void warn_of_ramp(const sb_scene *scene, const sb_wavemaker_use *maker, double duration, sb_warning_visit *visit,
+                         void *context)
 {
     char text[400];
     const sb_wavemaker_parameters *law = &maker->law;
-    if (!(law->kind->needs & SB_WM_TRAIN) || law->lasts >= 2 * law->ramp) return;
-    const double s = 0.5 * law->lasts / law->ramp;
+    const double left = scene->duration - law->start, most = fmin(0.5 * duration, left);
+    if (law->absorb && !(law->height > 0)) return;
+    if (!(law->ramp > 0) || !(left > 0) || law->ramp <= most * (1 + 1e-9)) return;
+    const double s = most / law->ramp, reached = 100 * s * s * (3 - 2 * s);
+    if (left < 0.5 * duration)
+        snprintf(
+            text, sizeof text,
+            "wave maker \"%s\": its motion has a ramp of %g s, and the run ends after %.4g s of it: it reaches %.2g %% "
+            "of the full motion; expected a shorter ramp, or a longer duration",
+            maker->name, law->ramp, left, reached);
+    else
+        snprintf(
+            text, sizeof text,
+            "wave maker \"%s\": its motion lasts %.4g s, with a ramp of %g s at the start and at the end: it reaches "
+            "%.2g %% of the full motion; expected a motion of more than %g s, or a shorter ramp",
+            maker->name, duration, law->ramp, reached, 2 * law->ramp);
+    visit(context, text);
+}
+
+/* Waves of a signal leave the paddle before they come to its distance: what the file has before the first of them comes
+   is lost. */
+static void warn_of_way(const sb_wavemaker_use *maker, const sb_paddle *paddle, sb_warning_visit *visit, void *context)
+{
+    enum { SAMPLES = 400 };
+    static const double lost = 0.02;
+    char text[400];
+    const sb_wavemaker_parameters *law = &maker->law;
+    const sb_wave_facts *facts = law->kind->facts(paddle->state);
+    const double omega = 2 * M_PI / facts->period, number = sb_wave_number(facts->period, law->depth, law->gravity);
+    const double way = law->distance / sb_group_speed(omega, number, law->depth);
+    double early = 0, all = 0;
+    law->kind->place(paddle->state, law->distance);
+    for (int i = 0; i < SAMPLES; i++) {
+        const double t = paddle->duration * (i + 0.5) / SAMPLES, z = law->kind->surface(paddle->state, t);
+        all += z * z;
+        if (t < way) early += z * z;
+    }
+    if (!(early > lost * all)) return;
     snprintf(
         text, sizeof text,
-        "wave maker \"%s\": its motion lasts %g s, with a ramp of %g s at the start and at the end: it reaches %.2g %% "
-        "of the full motion; expected lasts of more than %g s, or a shorter ramp",
-        maker->name, law->lasts, law->ramp, 100 * s * s * (3 - 2 * s), 2 * law->ramp);
+        "wave maker \"%s\": %.2g %% of the energy of its file is in the first %.3g s, and waves of %.3g s take that "
+        "long for the %g m: they do not come; expected still water before the first waves of the file, or a shorter "
+        "distance",
+        maker->name, 100 * early / all, way, facts->period, law->distance);
     visit(context, text);
 }
 
@@ -136,11 +192,14 @@ sb_status sb_wave_warnings(const sb_scene *scene, sb_warning_visit *visit, void 
         const unsigned needs = maker->law.kind->needs;
         sb_paddle paddle = {0};
         warn_of_start(scene, maker, visit, context);
-        warn_of_ramp(maker, visit, context);
         if (needs & SB_WM_DISTANCE) warn_of_distance(scene, maker, visit, context);
-        if (!(needs & SB_WM_FOCUS)) continue;
+        if (!(needs & SB_WM_TRAIN)) continue;
         status = sb_paddle_create(&maker->law, &paddle, error);
-        if (status == SB_OK) status = visit_group(maker, &paddle, visit, context, error);
+        if (status == SB_OK) warn_of_ramp(scene, maker, paddle.duration, visit, context);
+        if (status == SB_OK && needs & SB_WM_FOCUS) warn_of_late_focus(scene, maker, visit, context);
+        if (status == SB_OK && needs & SB_WM_FOCUS) status = visit_group(maker, &paddle, visit, context, error);
+        if (status == SB_OK && needs & SB_WM_FILE && needs & SB_WM_DISTANCE)
+            warn_of_way(maker, &paddle, visit, context);
         sb_paddle_destroy(&paddle);
     }
     return status;

@@ -8,6 +8,12 @@ double sb_breaking_height(double number, double depth)
     return fmin(0.142 * 2 * M_PI / number * tanh(number * depth), SB_SOLITARY_HIGHEST * depth);
 }
 
+double sb_breaking_shown(double most)
+{
+    const double unit = most > 0 ? pow(10, floor(log10(most)) - 2) : 1;
+    return floor(most / unit * (1 + 1e-12)) * unit;
+}
+
 void sb_sum_height_add(sb_sum_height *all, double amplitude, double number)
 {
     all->square += amplitude * amplitude;
@@ -30,5 +36,5 @@ sb_status sb_sum_height_check(const sb_sum_height *all, double depth, sb_error *
     return sb_fail(error, SB_BAD_INPUT,
                    "the waves together have a significant height of %.3g m and break: the highest is %.3g m long on %g "
                    "m, expected a significant height of at most %.3g m",
-                   height, 2 * M_PI / all->number, depth, most);
+                   height, 2 * M_PI / all->number, depth, sb_breaking_shown(most));
 }

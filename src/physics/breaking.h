@@ -9,8 +9,14 @@
 #define SB_SOLITARY_HIGHEST 0.8332
 
 /* Returns the greatest height in m of a wave of the number k: 0.142 L tanh kd [Miche 1944], and no more than that of a
-   solitary wave, which is lower for waves longer than 13.8 depths. */
+   solitary wave, which is lower for waves longer than 13.5 depths. */
 double sb_breaking_height(double number, double depth);
+
+/* Greatest height of a standing wave over L tanh kd [Penney and Price 1952: 0.218 in deep water]. */
+#define SB_STANDING_STEEPEST 0.218
+
+/* A limit rounded down to three digits, as messages show it: what they name is accepted. */
+double sb_breaking_shown(double most);
 
 /* The height of a sum of linear waves. Begin with {0}. */
 typedef struct sb_sum_height {

@@ -12,7 +12,7 @@ static sb_status check_height(const sb_regular_wave *wave, sb_error *error)
     if (wave->height <= most) return SB_OK;
     return sb_fail(error, SB_BAD_INPUT,
                    "a wave of %g m with a period of %g s on %g m breaks, expected a height of at most %.3g m",
-                   wave->height, wave->period, wave->depth, most);
+                   wave->height, wave->period, wave->depth, sb_breaking_shown(most));
 }
 
 static sb_status prepare(sb_regular_wave *wave, sb_error *error)

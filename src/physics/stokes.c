@@ -61,7 +61,7 @@ static sb_status check(const sb_stokes *wave, sb_error *error)
     if (!(wave->height <= most))
         return sb_fail(error, SB_BAD_INPUT,
                        "a wave of %g m with a length of %g m on %g m breaks, expected a height of at most %.3g m",
-                       wave->height, wave->length, d, most);
+                       wave->height, wave->length, d, sb_breaking_shown(most));
     if (!(ursell < limit))
         return sb_fail(
             error, SB_BAD_INPUT,

@@ -132,11 +132,17 @@ sb_status sb_paddle_fit_absorption(const sb_wavemaker_parameters *parameters, sb
     size_t count;
     sb_band_part *band = band_of(paddle, &count);
     if (!band) return sb_fail_memory(error, "an absorbing paddle");
+    double near = 0, all = 0; /* weights of the waves that are longer than four times the distance, and of all */
+    for (size_t i = 0; i < count; i++) {
+        const double k = sb_wave_number(2 * M_PI / band[i].omega, parameters->depth, parameters->gravity);
+        all += band[i].weight;
+        if (k * distance < M_PI / 2) near += band[i].weight;
+    }
     paddle->kind->place(paddle->state, distance);
     *filter = sb_absorbing_filter_of(parameters->motion, band, count, paddle->kind->facts(paddle->state)->slow,
                                      parameters->depth, parameters->gravity, distance);
     sb_free(band);
-    if (filter->gain > 0 && isfinite(filter->gain)) return SB_OK;
+    if (filter->gain > 0 && isfinite(filter->gain) && near >= 0.5 * all) return SB_OK;
     return sb_fail(error, SB_BAD_INPUT,
                    "absorb: its water is measured %g m ahead of the paddle, and most of its waves are shorter than "
                    "four times that, expected a finer resolution, longer waves, or absorb: false",

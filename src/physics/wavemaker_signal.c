@@ -7,12 +7,14 @@
 #include <complex.h>
 #include <math.h>
 
-/* The waves of a train together, by the rule of irregular waves. */
-static sb_status check_sum(const sb_wavemaker_parameters *p, const sb_wave_train *train, sb_error *error)
+/* The waves of a train together, by the rule of irregular waves. *height: of the sum, m. */
+static sb_status check_sum(const sb_wavemaker_parameters *p, const sb_wave_train *train, double *height,
+                           sb_error *error)
 {
     sb_sum_height all = {0};
     sb_error why = {0};
     for (size_t i = 0; i < train->count; i++) sb_sum_height_add(&all, train->part[i].amplitude, train->part[i].number);
+    *height = sb_sum_height_of(&all);
     if (sb_sum_height_check(&all, p->depth, &why) == SB_OK) return SB_OK;
     return sb_fail(error, SB_BAD_INPUT, "%.500s: %.300s", p->file, why.text);
 }
@@ -31,9 +33,23 @@ static sb_status check_wave(const sb_wavemaker_parameters *p, size_t row, const 
     return sb_fail(error, SB_BAD_INPUT, "%.500s: wave %zu: %.300s", p->file, row + 1, why.text);
 }
 
+/* Adds a row's wave; rows of one period are one wave. */
+static void add_wave(sb_wave_train *train, const double v[3])
+{
+    const double omega = 2 * M_PI / v[1], phase = v[2] * M_PI / 180;
+    for (size_t i = 0; i < train->count; i++) {
+        sb_train_part *part = &train->part[i];
+        if (part->omega != omega) continue;
+        const double complex sum = part->amplitude * cexp(CMPLX(0, part->phase)) + v[0] * cexp(CMPLX(0, phase));
+        sb_wave_train_set(train, i, cabs(sum), omega, carg(sum));
+        return;
+    }
+    sb_wave_train_set(train, train->count++, v[0], omega, phase);
+}
+
 static sb_status create_components(const sb_wavemaker_parameters *p, void **state, sb_error *error)
 {
-    double *values = NULL, square = 0, highest = 0;
+    double *values = NULL, highest = 0;
     size_t rows = 0;
     sb_status status =
         sb_number_rows_read(p->file, 3, "amplitude (m) period (s) phase (degrees)", &values, &rows, error);
@@ -41,24 +57,22 @@ static sb_status create_components(const sb_wavemaker_parameters *p, void **stat
     for (size_t i = 0; i < rows && status == SB_OK; i++) status = check_wave(p, i, values + 3 * i, error);
     sb_wave_train *train = status == SB_OK ? sb_wave_train_create(p, rows) : NULL;
     if (status == SB_OK && !train) status = sb_fail_memory(error, "a wave maker");
-    for (size_t i = 0; train && i < rows; i++) {
-        const double *v = values + 3 * i;
-        sb_wave_train_set(train, i, v[0], 2 * M_PI / v[1], v[2] * M_PI / 180);
-        square += v[0] * v[0];
-        if (v[0] >= highest) train->facts.period = v[1];
-        highest = fmax(highest, v[0]);
+    if (train) train->count = 0;
+    for (size_t i = 0; train && i < rows; i++) add_wave(train, values + 3 * i);
+    for (size_t i = 0; train && i < train->count; i++) {
+        if (train->part[i].amplitude >= highest) train->facts.period = 2 * M_PI / train->part[i].omega;
+        highest = fmax(highest, train->part[i].amplitude);
     }
     sb_free(values);
-    if (status == SB_OK && !(square > 0))
+    if (status == SB_OK && !(highest > 0))
         status = sb_fail(error, SB_BAD_INPUT, "%.500s: all amplitudes are 0, expected a wave", p->file);
-    if (status == SB_OK) status = check_sum(p, train, error);
+    if (status == SB_OK) status = check_sum(p, train, &train->facts.height, error);
     if (status != SB_OK) {
         sb_wave_train_destroy(train);
         return status;
     }
     train->facts.theory = "linear sum";
     train->facts.height_name = "significant height";
-    train->facts.height = sqrt(8 * square);
     sb_wave_train_complete(train);
     *state = train;
     return SB_OK;
@@ -155,7 +169,8 @@ static sb_status create_signal(const sb_wavemaker_parameters *p, void **state, s
     if (train) fill_parts(&s, p->distance, train);
     if (status == SB_OK && !(train->facts.height > 0))
         status = sb_fail(error, SB_BAD_INPUT, "%.500s: the surface is constant, expected waves", p->file);
-    if (status == SB_OK) status = check_sum(p, train, error);
+    double height;
+    if (status == SB_OK) status = check_sum(p, train, &height, error);
     const double length = s.step * (double)s.rows;
     sb_free(s.turn);
     sb_free(s.values);

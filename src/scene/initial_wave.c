@@ -115,7 +115,7 @@ static sb_status check_breaking(sb_reader *reader, const sb_yaml *map, const sb_
                 reader, map, "components",
                 "item %zu with an amplitude of %g m and a wavelength of %g m on %g m breaks, expected "
                 "an amplitude of at most %.3g m",
-                i, c->amplitude, c->wavelength, wave->depth, 0.5 * most);
+                i, c->amplitude, c->wavelength, wave->depth, sb_breaking_shown(0.5 * most));
         sb_sum_height_add(c->direction < 0 ? &backward : &forward, c->amplitude, number);
     }
     if (sb_sum_height_check(&forward, wave->depth, &why) == SB_OK &&

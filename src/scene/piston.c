@@ -8,15 +8,17 @@
    numbers. */
 static const double OBLIQUE = 0.01;
 
-/* Whether a direction is along a normal of the body's flat faces. A mesh may have any, and a cylinder has none. */
+/* Whether a direction is along a normal of the body's flat faces. A mesh may have any; a cylinder has none, a grid's
+   and a basin's are no paddles. */
 static bool along_face(const sb_body *body, sb_vec3 direction)
 {
     const bool plane = body->shape == SB_SHAPE_PLANE;
     const sb_vec3 normals[] = {plane ? body->normal : sb_vec(1, 0, 0), sb_vec(0, 1, 0), sb_vec(0, 0, 1)};
     const sb_turn turn = sb_turn_of(body->rotate);
+    if (body->shape != SB_SHAPE_BOX && !plane) return body->shape == SB_SHAPE_MESH;
     for (int n = 0; n < (plane ? 1 : 3); n++)
         if (sb_norm(sb_cross(sb_turned(&turn, normals[n]), direction)) < OBLIQUE) return true;
-    return !plane && body->shape != SB_SHAPE_BOX;
+    return false;
 }
 
 static sb_status check_direction(sb_reader *reader, const sb_yaml *map, const sb_wavemaker_use *use,
@@ -26,6 +28,10 @@ static sb_status check_direction(sb_reader *reader, const sb_yaml *map, const sb
         return sb_reader_fail(reader, map, "direction",
                               "is not horizontal, expected the direction from the paddle's flat face into the water");
     if (!body || along_face(body, use->direction)) return SB_OK;
+    if (body->shape != SB_SHAPE_BOX && body->shape != SB_SHAPE_PLANE)
+        return sb_reader_fail(
+            reader, map, "body",
+            "%s has no flat face with which it would push the water, expected a box, a plane or a mesh", use->body);
     return sb_reader_fail(
         reader, map, "direction",
         "is oblique to the flat faces of %s, so that the paddle would slide along the water, expected "

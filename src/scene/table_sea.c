@@ -170,7 +170,7 @@ static sb_status check_components(sb_reader *reader, const sb_yaml *map, const s
                                   "item %zu with an amplitude of %g m and a period of %g s on %g m %s, expected an "
                                   "amplitude of at most %.3g m",
                                   i, c->amplitude, c->period, given->depth, tide ? "uncovers the bed" : "breaks",
-                                  0.5 * most);
+                                  sb_breaking_shown(0.5 * most));
         if (!tide) sb_sum_height_add(&all, c->amplitude, number);
     }
     if (sb_sum_height_check(&all, given->depth, &why) == SB_OK) return SB_OK;

@@ -150,6 +150,12 @@ static sb_status finish_wave(sb_reader *reader, const sb_yaml *map, void *item)
         return sb_reader_fail(reader, map, "wavelength",
                               "%g m is too short to be resolved, expected at least two spacings, %g m",
                               wave->wavelength, 2 * reader->scene->resolution);
+    const double steepest = SB_STANDING_STEEPEST * wave->wavelength * tanh(2 * M_PI * wave->depth / wave->wavelength);
+    if (wave->kind == SB_INITIAL_STANDING && 2 * wave->height > steepest * (1 + 1e-9))
+        return sb_reader_fail(reader, map, "height",
+                              "a standing wave with an amplitude of %g m and a length of %g m on %g m breaks, expected "
+                              "at most %.3g m",
+                              wave->height, wave->wavelength, wave->depth, sb_breaking_shown(0.5 * steepest));
     return sb_initial_wave_finish(reader, map, wave);
 }
 

@@ -84,7 +84,7 @@ static const sb_key keys[] = {
     {.name = "gamma", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wavemaker_use, law.gamma), .min = 1, .max = 20,
      .applies = SB_WM_SPECTRUM, .only = "irregular and focused", .fallback = "3.3",
      .doc = "Peak enhancement of `jonswap`."},
-    {.name = "components", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_wavemaker_use, law.components), .min = 1, .max = 10000,
+    {.name = "components", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_wavemaker_use, law.components), .min = 20, .max = 10000,
      .applies = SB_WM_SPECTRUM, .only = "irregular and focused", .fallback = "200",
      .doc = "Number of linear waves, from 0.5 to 3 times the peak's frequency, by which the spectrum is represented."},
     {.name = "seed", .type = SB_KEY_SEED, SB_KEY_AT(sb_wavemaker_use, law.seed), .max = 0x1p64,
@@ -153,6 +153,9 @@ static sb_status check_unused(sb_reader *reader, const sb_yaml *map, const sb_wa
                               "jonswap, or no gamma",
                               law->gamma);
     if (!(law->kind->needs & SB_WM_TRAIN)) return SB_OK;
+    if (strcmp(law->kind->name, "absorber") == 0 && (law->start > 0 || isfinite(law->lasts)))
+        return sb_reader_fail(reader, map, law->start > 0 ? "start" : "lasts",
+                              "an absorber absorbs from the beginning to the end of the run, expected no such key");
     if (!law->absorb && fabs(law->reach - usual) > 1e-9 * usual)
         return sb_reader_fail(reader, map, "reach",
                               "%g m, but the paddle does not absorb, expected absorb: true, or no reach", law->reach);

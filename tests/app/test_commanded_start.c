@@ -69,7 +69,7 @@ static void a_commanded_start_can_be_repeated(void **state)
 
     o = RUN(0, "run", "wave.yaml", "--out", "still", "--quiet");
     assert_contains(o.err,
-                    "wave maker \"piston\": its start waits for a command, and commands are off: it never moves");
+                    "wave maker \"piston\": its start waits for a command, and commands are off: it makes no waves");
     outcome_free(&o);
     char *moved = text_of("wave/gauges.csv"), *still = text_of("still/gauges.csv");
     assert_string_not_equal(moved, still);

@@ -100,6 +100,28 @@ static sb_status check_depth(const checked *c, const char *what, const char *nam
                          what, name, depth, there);
 }
 
+/* Compares the lowest height of the crests of a wave maker, half of the wave height or that of a solitary wave, with
+   the tops of the domain and of its body. top: of the boundary particles, which lie within the body. */
+static sb_status check_crest(const checked *c, const sb_wavemaker_use *maker, double top, sb_error *error)
+{
+    const sb_wavemaker_parameters *law = &maker->law;
+    const bool train = law->kind->needs & SB_WM_TRAIN;
+    const double crest = c->scene->sea.level + (train ? 0.5 : 1) * law->height;
+    if (!(law->height > 0)) return SB_OK;
+    if (crest > c->scene->domain.max.z)
+        return sb_model_warn(
+            c->model, error,
+            "wave maker \"%s\": its crests at z = %.4g m are above the domain's top, %g m, where water "
+            "leaves; expected a higher domain or lower waves",
+            maker->name, crest, c->scene->domain.max.z);
+    if (crest <= top + c->model->spacing) return SB_OK;
+    return sb_model_warn(
+        c->model, error,
+        "wave maker \"%s\": its crests at z = %.4g m are above its body, which is about %.4g m high, and "
+        "pass over it; expected a higher body or lower waves",
+        maker->name, crest, top);
+}
+
 /* Compares the still-water depth that waves and wave makers assume with the depth of the water there. */
 static sb_status check_depths(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
@@ -111,7 +133,9 @@ static sb_status check_depths(const sb_scene *scene, const sb_model_space *space
     if (wave->kind == SB_INITIAL_SOLITARY && scene->sea.present)
         status = check_depth(&c, "water.wave", " at its crest", wave->depth, east, wave->position - near,
                              wave->position + near, error);
-    if ((wave->kind == SB_INITIAL_REGULAR || wave->kind == SB_INITIAL_COMPONENTS) && scene->sea.present)
+    if ((wave->kind == SB_INITIAL_REGULAR || wave->kind == SB_INITIAL_COMPONENTS ||
+         wave->kind == SB_INITIAL_STANDING) &&
+        scene->sea.present)
         status = check_depth(&c, "water.wave", "", wave->depth, east, model->min.x, model->max.x, error);
     if (status == SB_OK && wave->kind != SB_INITIAL_NONE && scene->sea.present &&
         scene->sea.level + sb_initial_crest(wave) > scene->domain.max.z)
@@ -120,12 +144,17 @@ static sb_status check_depths(const sb_scene *scene, const sb_model_space *space
                                scene->sea.level + sb_initial_crest(wave), scene->domain.max.z);
     for (size_t w = 0; w < scene->wavemaker_count && status == SB_OK && scene->sea.present; w++) {
         const sb_wavemaker_use *maker = &scene->wavemakers[w];
-        double front = -(double)INFINITY;
+        double front = -(double)INFINITY, top = -(double)INFINITY;
         char name[SB_NAME_MAX + 4];
         for (size_t b = 0; b < model->body_count; b++)
             for (size_t i = model->bodies[b].begin; i < model->bodies[b].begin + model->bodies[b].count; i++)
-                if (model->bodies[b].wavemaker == (int)w && sb_dot(model->wall_normal[i], maker->direction) > 0.9)
-                    front = fmax(front, sb_dot(model->wall_position[i], maker->direction));
+                if (model->bodies[b].wavemaker == (int)w) {
+                    top = fmax(top, model->wall_position[i].z);
+                    if (sb_dot(model->wall_normal[i], maker->direction) > 0.9)
+                        front = fmax(front, sb_dot(model->wall_position[i], maker->direction));
+                }
+        status = check_crest(&c, maker, top, error);
+        if (status != SB_OK) return status;
         if (!(maker->law.depth > 0) || !isfinite(front)) continue;
         snprintf(name, sizeof name, " \"%s\"", maker->name);
         status = check_depth(&c, "wave maker", name, maker->law.depth, maker->direction, front, front + near, error);
