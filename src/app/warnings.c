@@ -66,12 +66,42 @@ static void warn_of_length(const sb_scene *scene, const sb_reflection_set *set, 
     }
 }
 
+/* The one wave maker of regular waves; NULL: there is none, or several. */
+static const sb_wavemaker_use *regular_of(const sb_scene *scene)
+{
+    const sb_wavemaker_use *found = NULL;
+    for (size_t w = 0; w < scene->wavemaker_count; w++) {
+        if (strcmp(scene->wavemakers[w].law.kind->name, "regular") != 0) continue;
+        if (found) return NULL;
+        found = &scene->wavemakers[w];
+    }
+    return found;
+}
+
+/* Harmonics of another period than that of the waves are not theirs. what: the key of the period. */
+static void warn_of_period(const sb_scene *scene, const char *what, double period, sb_warning_visit *visit,
+                           void *context)
+{
+    char text[300];
+    const sb_wavemaker_use *maker = regular_of(scene);
+    const double ratio = maker ? period / maker->law.period : 1;
+    if (!(period > 0) || (ratio > 0.5 && fabs(ratio - round(ratio)) < 0.005 * ratio)) return;
+    snprintf(text, sizeof text,
+             "%s: %g s is not the period of the waves of \"%s\", %g s, so that its harmonics are not theirs; expected "
+             "that period",
+             what, period, maker->name, maker->law.period);
+    visit(context, text);
+}
+
 /* Gauges near multiples of half a wavelength apart cannot tell incident from reflected waves. */
 static sb_status warn_of_reflections(const sb_scene *scene, sb_warning_visit *visit, void *context, sb_error *error)
 {
     for (size_t r = 0; r < scene->measure.reflection_count; r++) {
         const sb_reflection_set *set = &scene->measure.reflections[r];
         warn_of_window(scene, set, visit, context);
+        char what[SB_NAME_MAX + 40];
+        snprintf(what, sizeof what, "measure.reflections %s: period", set->name);
+        warn_of_period(scene, what, set->period, visit, context);
         warn_of_length(scene, set, visit, context);
         double *places = sb_alloc(set->gauge_count, sizeof *places);
         if (!places) return sb_fail_memory(error, "gauges of reflections");
@@ -165,6 +195,7 @@ sb_status sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void
     if (status == SB_OK) status = warn_of_reflections(scene, visit, context, error);
     sb_numerics_warnings(scene, visit, context);
     sb_tension_warnings(scene, visit, context);
+    warn_of_period(scene, "measure.waves.period", scene->measure.waves.period, visit, context);
     sb_measure_warnings(scene, visit, context);
     sb_zone_warnings(scene, visit, context);
     if (scene->measure.interval > scene->duration) {
