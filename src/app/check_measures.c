@@ -4,6 +4,7 @@
 
 #include "output/wave_table.h"
 #include "physics/eurotop.h"
+#include "physics/reflection.h"
 
 #include <stdio.h>
 
@@ -28,7 +29,7 @@ static void warn_of_waves(const sb_scene *scene, sb_warning_visit *visit, void *
         visit(context, text);
     }
     const double left = scene->duration - waves->start;
-    if (left > 0 && waves->period > left) {
+    if (left > 0 && SB_LEAST_PERIODS * waves->period > left) {
         snprintf(text, sizeof text,
                  "measure.waves.period: %g s is longer than the %g s from measure.waves.start to the end of the run: "
                  "there are no harmonics; expected an earlier start, a longer duration or a shorter period",

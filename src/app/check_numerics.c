@@ -30,7 +30,7 @@ void sb_numerics_warnings(const sb_scene *scene, sb_warning_visit *visit, void *
         {"tolerance_rule", explicit, "a solver other than wcsph"},
         {"time_step_rule", explicit, "a solver other than wcsph"},
         {"time_step_factor", explicit, "a solver other than wcsph"},
-        {"stress_memory", explicit, "a solver other than wcsph"},
+        {"stress_memory", !(n->stress_correction > 0), "stress_correction above 0"},
         {"tolerance", explicit, "a solver other than wcsph"},
         {"min_iterations", explicit, "a solver other than wcsph"},
         {"max_iterations", explicit, "a solver other than wcsph"},

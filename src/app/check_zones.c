@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 typedef struct zone {
     double from, to; /* m, along its axis, within the domain */
@@ -49,9 +50,10 @@ static void warn_of_overlap(const sb_scene *scene, const sb_sponge *a, const sb_
     visit(context, text);
 }
 
-/* Whether waves of a wave maker run towards the sponge's side. */
+/* Whether waves of a wave maker run towards the sponge's side. An absorber makes none. */
 static bool run_to(const sb_wavemaker_use *maker, const sb_sponge *sponge)
 {
+    if (strcmp(maker->law.kind->name, "absorber") == 0) return false;
     const double along = sb_component(maker->direction, sponge->side / 2);
     return (sponge->side % 2 ? along : -along) > 0.7;
 }

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Part of a focused crest that must be able to come in time. */
 static const double ENOUGH = 0.9;
@@ -51,11 +52,20 @@ static void warn_of_focus(const sb_wavemaker_use *maker, const group *g, sb_warn
     char text[500];
     const double share = share_in_time(g, maker->law.focus);
     if (share >= ENOUGH) return;
+    if (share_in_time(&(group){g->count, g->amplitude, g->travel, g->ramp, (double)INFINITY}, maker->law.focus) >=
+        ENOUGH) {
+        snprintf(
+            text, sizeof text,
+            "wave maker \"%s\": its motion ends after %g s, and of the waves that focus at %g s only %.2g %% of the "
+            "crest have left by then; expected an earlier focus, or a motion that lasts longer",
+            maker->name, g->lasts, maker->law.focus, 100 * share);
+        visit(context, text);
+        return;
+    }
     snprintf(text, sizeof text,
              "wave maker \"%s\": its focus at %g s is too early: by their group speeds waves with %.2g %% of the crest "
-             "come %g m far by then; expected a focus of at least %.3g s, %s",
-             maker->name, maker->law.focus, 100 * share, maker->law.distance, earliest_focus(g),
-             isfinite(g->lasts) ? "a shorter distance, or a motion that lasts longer" : "or a shorter distance");
+             "come %g m far by then; expected a focus of at least %.3g s, or a shorter distance",
+             maker->name, maker->law.focus, 100 * share, maker->law.distance, earliest_focus(g));
     visit(context, text);
 }
 
@@ -137,8 +147,9 @@ static void warn_of_ramp(const sb_scene *scene, const sb_wavemaker_use *maker, d
 {
     char text[400];
     const sb_wavemaker_parameters *law = &maker->law;
-    const double left = scene->duration - law->start, most = fmin(0.5 * duration, left);
-    if (law->absorb && !(law->height > 0)) return;
+    const double left = isinf(law->start) ? (double)INFINITY : scene->duration - law->start;
+    const double most = fmin(0.5 * duration, left);
+    if (strcmp(law->kind->name, "absorber") == 0) return;
     if (!(law->ramp > 0) || !(left > 0) || law->ramp <= most * (1 + 1e-9)) return;
     const double s = most / law->ramp, reached = 100 * s * s * (3 - 2 * s);
     if (left < 0.5 * duration)

@@ -10,9 +10,6 @@
 
 enum { TIME = 0, Z = 3 }; /* columns of gauges.csv */
 
-/* The last row of a period may be missing. */
-static const double LEAST_PERIODS = 0.9;
-
 /* The rows of one gauge. */
 typedef struct gauge_rows {
     double *t, *z;
@@ -38,7 +35,7 @@ static sb_status find_harmonics(const sb_wave_settings *settings, const gauge_ro
     for (int h = 0; h < SB_WAVE_HARMONICS; h++) waves->harmonic[h] = (double)NAN;
     /* Less than a period does not tell harmonics apart. */
     if (!(settings->period > 0) || rows->count == 0) return SB_OK;
-    if (rows->t[rows->count - 1] - rows->t[0] < settings->period * LEAST_PERIODS) return SB_OK;
+    if (rows->t[rows->count - 1] - rows->t[0] < settings->period * SB_LEAST_PERIODS) return SB_OK;
     double *sums = sb_alloc(2 * size, sizeof *sums), cosines[SB_WAVE_HARMONICS], sines[SB_WAVE_HARMONICS];
     if (!sums) return sb_fail_memory(error, "harmonics of waves");
     for (size_t i = 0; i < rows->count; i++)

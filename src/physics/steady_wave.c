@@ -1,5 +1,6 @@
 #include "physics/steady_wave.h"
 
+#include "physics/breaking.h"
 #include "physics/dispersion.h"
 
 #include <math.h>
@@ -123,11 +124,19 @@ static double first_harmonic(const double x[UNKNOWNS])
     return 2 * sum / POINTS;
 }
 
+/* Other solutions of the equations have several crests. */
+static bool has_one_crest(const double x[UNKNOWNS])
+{
+    bool falls = true;
+    for (int i = 1; i <= POINTS; i++) falls &= x[LEVEL + i] < x[LEVEL + i - 1];
+    return falls;
+}
+
 bool sb_steady_wave_of(double height, double period, double depth, double gravity, sb_steady_wave *wave)
 {
     double x[UNKNOWNS], last[UNKNOWNS];
     const double unit = sqrt(depth / gravity);
-    if (!(height > 0 && period > 0 && depth > 0 && height < depth)) return false;
+    if (!(height > 0 && period > 0 && depth > 0 && height <= SB_SOLITARY_HIGHEST * depth)) return false;
     for (int s = 1; s <= STEPS; s++) {
         const given g = {height / depth * s / STEPS, period / unit};
         if (s == 1) begin(x, g);
@@ -136,7 +145,7 @@ bool sb_steady_wave_of(double height, double period, double depth, double gravit
             if (s > 2) x[c] += before - last[c];
             last[c] = before;
         }
-        if (!improve(x, g, &wave->residual)) return false;
+        if (!improve(x, g, &wave->residual) || !has_one_crest(x)) return false;
     }
     wave->length = 2 * M_PI / x[NUMBER] * depth;
     wave->speed = x[DISCHARGE] * depth / unit;

@@ -1,5 +1,6 @@
-/* Steady waves of any length by a Fourier series of the stream function [Rienecker and Fenton 1981, J. Fluid Mech.
-   104]: no expansion in the height, so that Stokes' and cnoidal waves are the same problem. */
+/* Steady waves by a Fourier series of the stream function [Rienecker and Fenton 1981, J. Fluid Mech. 104]: no expansion
+   in the height, so that Stokes' and cnoidal waves are the same problem. Very long waves need more terms than there
+   are. */
 #ifndef SB_STEADY_WAVE_H
 #define SB_STEADY_WAVE_H
 
@@ -14,7 +15,7 @@ typedef struct sb_steady_wave {
     double residual; /* largest error of the equations, in units of depth and gravity */
 } sb_steady_wave;
 
-/* False: there is no such wave, or none is found. */
+/* False: there is no such wave, or it is too long (kd below about 0.2) or too near to breaking to be found. */
 bool sb_steady_wave_of(double height, double period, double depth, double gravity, sb_steady_wave *wave);
 
 #endif

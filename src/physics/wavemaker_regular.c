@@ -49,7 +49,6 @@ static sb_status create(const sb_wavemaker_parameters *parameters, void **state,
                                    .period = wave.period,
                                    .length = wave.length};
     sb_wave_train_complete(train);
-    train->facts.ursell = wave.height * wave.length * wave.length / (wave.depth * wave.depth * wave.depth);
     *state = train;
     return SB_OK;
 }

@@ -33,23 +33,34 @@ static sb_status check_wave(const sb_wavemaker_parameters *p, size_t row, const 
     return sb_fail(error, SB_BAD_INPUT, "%.500s: wave %zu: %.300s", p->file, row + 1, why.text);
 }
 
+/* The part of that frequency; train->count: there is none. */
+static size_t part_of(const sb_wave_train *train, double omega)
+{
+    size_t i = 0;
+    while (i < train->count && train->part[i].omega != omega) i++;
+    return i;
+}
+
 /* Adds a row's wave; rows of one period are one wave. */
 static void add_wave(sb_wave_train *train, const double v[3])
 {
     const double omega = 2 * M_PI / v[1], phase = v[2] * M_PI / 180;
-    for (size_t i = 0; i < train->count; i++) {
-        sb_train_part *part = &train->part[i];
-        if (part->omega != omega) continue;
-        const double complex sum = part->amplitude * cexp(CMPLX(0, part->phase)) + v[0] * cexp(CMPLX(0, phase));
-        sb_wave_train_set(train, i, cabs(sum), omega, carg(sum));
+    const size_t i = part_of(train, omega);
+    if (i == train->count) {
+        sb_wave_train_set(train, train->count++, v[0], omega, phase);
         return;
     }
-    sb_wave_train_set(train, train->count++, v[0], omega, phase);
+    const sb_train_part *part = &train->part[i];
+    const double complex sum = part->amplitude * cexp(CMPLX(0, part->phase)) + v[0] * cexp(CMPLX(0, phase));
+    sb_wave_train_set(train, i, cabs(sum), omega, carg(sum));
 }
+
+/* Share of the amplitudes that is left of waves that cancel. */
+static const double NOTHING = 1e-9;
 
 static sb_status create_components(const sb_wavemaker_parameters *p, void **state, sb_error *error)
 {
-    double *values = NULL, highest = 0;
+    double *values = NULL, highest = 0, sum = 0;
     size_t rows = 0;
     sb_status status =
         sb_number_rows_read(p->file, 3, "amplitude (m) period (s) phase (degrees)", &values, &rows, error);
@@ -59,13 +70,16 @@ static sb_status create_components(const sb_wavemaker_parameters *p, void **stat
     if (status == SB_OK && !train) status = sb_fail_memory(error, "a wave maker");
     if (train) train->count = 0;
     for (size_t i = 0; train && i < rows; i++) add_wave(train, values + 3 * i);
-    for (size_t i = 0; train && i < train->count; i++) {
-        if (train->part[i].amplitude >= highest) train->facts.period = 2 * M_PI / train->part[i].omega;
-        highest = fmax(highest, train->part[i].amplitude);
+    for (size_t i = 0; train && i < rows; i++) {
+        const double period = values[3 * i + 1], amplitude = train->part[part_of(train, 2 * M_PI / period)].amplitude;
+        if (amplitude >= highest) train->facts.period = period;
+        highest = fmax(highest, amplitude);
+        sum += values[3 * i];
     }
     sb_free(values);
-    if (status == SB_OK && !(highest > 0))
-        status = sb_fail(error, SB_BAD_INPUT, "%.500s: all amplitudes are 0, expected a wave", p->file);
+    if (status == SB_OK && !(highest > NOTHING * sum))
+        status =
+            sb_fail(error, SB_BAD_INPUT, "%.500s: all amplitudes are 0, alone or together, expected a wave", p->file);
     if (status == SB_OK) status = check_sum(p, train, &train->facts.height, error);
     if (status != SB_OK) {
         sb_wave_train_destroy(train);

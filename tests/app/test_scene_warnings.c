@@ -116,6 +116,13 @@ static const struct {
      "wave maker \"w\": its motion has a ramp of 3 s, and the run ends after 0.02 s of it", "or a longer duration"},
     {WAVES_BY("kind: focused, height: 0.1, depth: 0.5, period: 1.5, distance: 2, focus: 90"),
      "wave maker \"w\": its waves focus at 90 s, after the end of the run at 0.02 s", "expected an earlier focus"},
+    {WAVES_BY("kind: focused, height: 0.1, depth: 0.5, period: 1.5, distance: 2, focus: 30, lasts: 12"),
+     "wave maker \"w\": its motion ends after 12 s, and of the waves that focus at 30 s only 0 %",
+     "expected an earlier focus, or a motion that lasts longer"},
+    {WAVES_BY("kind: components, depth: 0.5, file: list.txt, absorb: true"),
+     "wave maker \"w\": its motion has a ramp of ", "or a longer duration"},
+    {STILL "numerics: {stress_correction: 0, stress_memory: 30}\n", "numerics.stress_memory: 30 has no effect",
+     "expected stress_correction above 0"},
     {WAVES_BY("kind: signal, depth: 0.5, file: signal.txt, distance: 4"), "of the energy of its file is in the first ",
      "expected still water before the first waves of the file"},
     {TANK "domain: {min: [-1, 0], max: [4, 0.7]}\nwater: {level: 0.5, seed: [1, 0.2]}\n"
@@ -125,7 +132,8 @@ static const struct {
     {TANK "domain: {min: [-1, 0], max: [4, 0.9]}\nwater: {level: 0.5, seed: [1, 0.2]}\n"
           "bodies: [{name: paddle, shape: box, min: [-0.5, 0], max: [0, 0.6]}]\n"
           "wavemakers: [{name: w, body: paddle, kind: goring, height: 0.25, depth: 0.5}]\n",
-     "wave maker \"w\": its crests at z = 0.75 m are above its body", "expected a higher body or lower waves"},
+     "wave maker \"w\": its crests at z = 0.75 m are above the top of its body",
+     "expected a higher body or lower waves"},
     {WAVES_BY("kind: regular, height: 0.1, depth: 0.5, period: 1.5, start: 9"),
      "wave maker \"w\": it begins at 9 s, and the run ends at 0.02 s: it makes no waves", "expected an earlier start"},
     {"title: t\ndimensions: 2\nduration: 0.02\noutput: {plots: false}\ndomain: {min: [0, -1], max: [40, 1]}\n"

@@ -52,10 +52,30 @@ static void low_long_waves_are_cnoidal(void **state)
     }
 }
 
+/* High waves longer than Stokes' are those of cnoidal theory to the first order in H/d. Where the series ends too
+   early, none is found rather than a wrong one. */
+static void long_high_waves_are_right_or_none(void **state)
+{
+    (void)state;
+    size_t found = 0;
+    for (double height = 0.05; height < 0.6; height *= 1.6)
+        for (double period = 7; period < 90; period *= 1.25) {
+            sb_steady_wave wave;
+            sb_cnoidal cnoidal;
+            if (!sb_steady_wave_of(height, period, 1, g, &wave)) continue;
+            assert_int_equal(sb_cnoidal_of_period(height, period, 1, g, &cnoidal, NULL), SB_OK);
+            assert_near(wave.length, cnoidal.length, 0.5 * height * height * wave.length);
+            assert_true(wave.first > 0.15 * height);
+            found++;
+        }
+    assert_true(found > 10);
+}
+
 static void waves_that_break_are_none(void **state)
 {
     (void)state;
     sb_steady_wave wave;
+    assert_false(sb_steady_wave_of(0.95, 16.757, 1, g, &wave));
     assert_false(sb_steady_wave_of(0.95, 2.3, 1, g, &wave));
     assert_false(sb_steady_wave_of(0, 2.3, 1, g, &wave));
     assert_false(sb_steady_wave_of((double)NAN, 2.3, 1, g, &wave));
@@ -64,9 +84,8 @@ static void waves_that_break_are_none(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(low_waves_are_linear),
-        cmocka_unit_test(waves_of_middle_depth_are_stokes_waves),
-        cmocka_unit_test(low_long_waves_are_cnoidal),
+        cmocka_unit_test(low_waves_are_linear),       cmocka_unit_test(waves_of_middle_depth_are_stokes_waves),
+        cmocka_unit_test(low_long_waves_are_cnoidal), cmocka_unit_test(long_high_waves_are_right_or_none),
         cmocka_unit_test(waves_that_break_are_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -178,7 +178,7 @@ static void refusals(void **state)
         "period: 1}]",
         NULL,
         "sea.components: item 1 with an amplitude of 0.3 m and a period of 1 s on 1 m breaks, expected an "
-        "amplitude of at most 0.111 m");
+        "amplitude of at most 0.11 m");
     sea_refused(
         SEA_FLAT,
         "source: theory, wave: components, depth: 1, components: [{amplitude: 0.2, period: 2}, {amplitude: 0.19, "

@@ -139,7 +139,7 @@ static void compare_nothing(const sb_case_run *runs, const sb_figures *of_each, 
 }
 
 /* A judged run without the run that it is compared with is not within its targets: there is no figure. */
-static void test_a_missing_partner_is_told(void **state)
+static void test_a_missing_partner_is_reported(void **state)
 {
     (void)state;
     char *written = NULL;
@@ -193,7 +193,7 @@ int main(void)
         cmocka_unit_test(test_same_request_is_found),
         cmocka_unit_test(test_other_requests_and_own_runs_are_ignored),
         cmocka_unit_test(test_report_of_kept_figures_keeps_table),
-        cmocka_unit_test(test_a_missing_partner_is_told),
+        cmocka_unit_test(test_a_missing_partner_is_reported),
         cmocka_unit_test(test_missing_table_is_empty),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -114,12 +114,13 @@ static sb_status check_crest(const checked *c, const sb_wavemaker_use *maker, do
             "wave maker \"%s\": its crests at z = %.4g m are above the domain's top, %g m, where water "
             "leaves; expected a higher domain or lower waves",
             maker->name, crest, c->scene->domain.max.z);
-    if (crest <= top + c->model->spacing) return SB_OK;
+    const double body_top = top + c->scene->numerics.wall_offset * c->model->spacing;
+    if (crest <= body_top + 0.25 * c->model->spacing) return SB_OK;
     return sb_model_warn(
         c->model, error,
-        "wave maker \"%s\": its crests at z = %.4g m are above its body, which is about %.4g m high, and "
+        "wave maker \"%s\": its crests at z = %.4g m are above the top of its body, about z = %.4g m, and "
         "pass over it; expected a higher body or lower waves",
-        maker->name, crest, top);
+        maker->name, crest, body_top);
 }
 
 /* Compares the still-water depth that waves and wave makers assume with the depth of the water there. */
@@ -181,7 +182,8 @@ static sb_status check_water(const sb_scene *scene, const sb_model_space *space,
 static sb_status check_steps(const sb_scene *scene, sb_model *model, sb_error *error)
 {
     const sb_numerics *n = &scene->numerics;
-    if (n->time_step_rule != SB_TIME_STEP_DEPTH || n->time_step_factor <= LONGEST_STEP * (1 + 1e-6)) return SB_OK;
+    if (n->solver == SB_SOLVER_WCSPH || n->time_step_rule != SB_TIME_STEP_DEPTH) return SB_OK;
+    if (n->time_step_factor <= LONGEST_STEP * (1 + 1e-6)) return SB_OK;
     if (n->time_step_factor > REFUSED_STEP * (1 + 1e-6))
         return sb_fail(error, SB_BAD_INPUT,
                        "%.300s: numerics.time_step_factor %g: with steps this long water falls tens of per cent too "

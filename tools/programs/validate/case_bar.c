@@ -4,7 +4,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { WINDOW = 5, JUDGED_HARMONICS = 3 }; /* periods, the last ones of the run */
 

@@ -154,7 +154,7 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
 
 #define METHOD                                                                                                         \
     "Reference: the height aimed at, and a steady wave (Rienecker and Fenton 1981; Stokes' theory of fifth order is "  \
-    "within 0.02 % of it for kd 0.5 to 3) in a closed flume, where a return "                                          \
+    "within 0.02 % of it in all flumes but the cnoidal one) in a closed flume, where a return "                        \
     "current\ncarries back what the waves carry forward. Gauges stand from 2 to 12 wavelengths from the paddle; the "  \
     "last four periods\ncount. Loss: from the line through the logarithms of the heights. Wavelength: from the line "  \
     "through the phases of the first\nharmonics. No filter, no time shift. The quick form has gauges from 2 to 3.9 "   \

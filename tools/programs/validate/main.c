@@ -72,10 +72,11 @@ static sb_status report(sb_store *store, const sb_validate_options *o, size_t *m
         status = sb_results_collect(store, sb_cases[what.count], &former, &results[what.count], error);
     sb_sheet_free(&former);
     if (status == SB_OK) status = sb_validation_write(&what, error);
+    const bool all = !o->spacings && !(o->spacing > 0); /* otherwise a partner may be left out on purpose */
     for (size_t c = 0; c < what.count; c++) {
         size_t limited, passed;
         sb_results_count(&results[c], &limited, &passed);
-        if (sb_selection_has(&o->cases, c)) *missed += limited - passed + sb_results_incomplete(&results[c]);
+        if (sb_selection_has(&o->cases, c)) *missed += limited - passed + (all && sb_results_incomplete(&results[c]));
         sb_case_results_free(&results[c]);
     }
     return status;

@@ -12,9 +12,9 @@ static const char *verdict(const sb_case_results *results, size_t *limited, size
         if (results->runs[i].state == SB_RESULT_FAILED && results->runs[i].request.plan->judged) failed = true;
     if (failed) return "**run failed**";
     if (!sb_results_judged(results)) return "not run";
+    if (*passed < *limited) return "**missed**";
     if (sb_results_incomplete(results)) return "**incomplete**: a run that it is compared with is missing";
-    if (*limited == 0) return "reported";
-    return *passed == *limited ? "within" : "**missed**";
+    return *limited > 0 ? "within" : "reported";
 }
 
 void sb_report_missed_rows(FILE *out, const sb_case_results *results)

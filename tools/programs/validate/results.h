@@ -47,9 +47,9 @@ const sb_result *sb_results_finest(const sb_case_results *results);
 sb_judgement sb_results_judge(const sb_case_results *results, size_t i);
 /* Spread of the named figure at the judged spacing, or else at the finest spacing with several seeds. */
 sb_seed_spread sb_results_spread(const sb_case_results *results, const char *quantity);
-/* Counts the figures with a target, including those of several runs, and those within their targets. */
 /* Whether the judged run is there, but no figure that compares it with the other runs: their files are missing. */
 bool sb_results_incomplete(const sb_case_results *results);
+/* Counts the figures with a target, including those of several runs, and those within their targets. */
 void sb_results_count(const sb_case_results *results, size_t *limited, size_t *passed);
 
 #endif
