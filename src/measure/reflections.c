@@ -163,7 +163,7 @@ sb_status sb_measure_reflections(sb_measure *measure, const sb_reflection_record
     for (size_t i = 0; status == SB_OK && i < measure->scene->measure.reflection_count; i++) {
         const sb_reflection_set *set = &measure->scene->measure.reflections[i];
         const split_state *state = &measure->splits[i];
-        if (state->last - set->start < SB_LEAST_PERIODS * set->period) continue; /* harmonics cannot be told apart */
+        if (state->last - set->start < SB_LEAST_PERIODS * set->period) continue; /* harmonics cannot be distinguished */
         status = split_all(measure, i, state->whole, set->start, state->last, measure->split_rows + *count, error);
         *count += (size_t)set->harmonics;
     }

@@ -33,7 +33,7 @@ static sb_status find_harmonics(const sb_wave_settings *settings, const gauge_ro
 {
     const size_t size = sb_harmonics_size(SB_WAVE_HARMONICS);
     for (int h = 0; h < SB_WAVE_HARMONICS; h++) waves->harmonic[h] = (double)NAN;
-    /* Less than a period does not tell harmonics apart. */
+    /* Less than a period does not distinguish harmonics. */
     if (!(settings->period > 0) || rows->count == 0) return SB_OK;
     if (rows->t[rows->count - 1] - rows->t[0] < settings->period * SB_LEAST_PERIODS) return SB_OK;
     double *sums = sb_alloc(2 * size, sizeof *sums), cosines[SB_WAVE_HARMONICS], sines[SB_WAVE_HARMONICS];

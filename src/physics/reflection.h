@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Periods of samples without which harmonics cannot be told apart; the last sample of a period may be missing. */
+/* Periods of samples without which harmonics cannot be distinguished; the last sample of a period may be missing. */
 static const double SB_LEAST_PERIODS = 0.9;
 
 /* Least-squares fit of mean + sum over n = 1..harmonics of A_n cos(n w t) + B_n sin(n w t) to samples that are added

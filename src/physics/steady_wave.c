@@ -116,7 +116,7 @@ static void begin(double x[UNKNOWNS], given g)
     x[HEAD] = 1 + 0.5 * speed * speed;
 }
 
-/* Trapezoids are exact for the harmonics that the points tell apart. */
+/* Trapezoids are exact for the harmonics that the points distinguish. */
 static double first_harmonic(const double x[UNKNOWNS])
 {
     double sum = 0;

@@ -110,7 +110,7 @@ static void figure_length(const sb_case_run *run, const train *w, double limit, 
     figure(figures, "wavelength", "m", steady ? wave.length : (double)NAN, w->length, limit, note);
 }
 
-/* A line over gauges within two wavelengths, as in quick forms, does not tell a loss over ten from scatter. */
+/* A line over gauges within two wavelengths, as in quick forms, does not distinguish a loss over ten from scatter. */
 static void figure_loss(const sb_case_run *run, const train *w, double limit, sb_figures *figures)
 {
     static const char note[] = "line through the logarithms of the heights at %zu gauges, whose scatter makes a "
