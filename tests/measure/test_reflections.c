@@ -96,7 +96,21 @@ static void each_window_has_rows(void **state)
     fake_world_free(&f.world);
 }
 
-/* A set that asks for it finds a bound and a free second harmonic, and the other does not. The gauges'
+/* Measures 75 rows, 3.75 s, of incident waves of 0.1 m and these reflected ones. */
+static sb_measure *measured(flume *f, double reflected)
+{
+    sb_measure *measure;
+    put_surface(f, 0.1, reflected);
+    assert_int_equal(sb_measure_create(&f->world.scene, &f->world.model, &f->world.sim, &measure, NULL), SB_OK);
+    for (int s = 1; s <= 75; s++) {
+        f->world.sim.report.time = 0.05 * s;
+        put_surface(f, 0.1, reflected);
+        assert_int_equal(sb_measure_step(measure, &f->world.sim, NULL), SB_OK);
+    }
+    return measure;
+}
+
+/* A set that requires it finds a bound and a free second harmonic, and the other does not. The gauges'
    average over the kernel's width takes up to (k s)^2 2/3 = 7 % of a free wave of 0.8 s. */
 static void bound_harmonics_are_split(void **state)
 {
@@ -109,13 +123,7 @@ static void bound_harmonics_are_split(void **state)
     f.sets[0].bound = true;
     f.bound = 0.02;
     f.free = 0.01;
-    put_surface(&f, 0.1, 0);
-    assert_int_equal(sb_measure_create(&f.world.scene, &f.world.model, &f.world.sim, &measure, NULL), SB_OK);
-    for (int s = 1; s <= 75; s++) {
-        f.world.sim.report.time = 0.05 * s;
-        put_surface(&f, 0.1, 0);
-        assert_int_equal(sb_measure_step(measure, &f.world.sim, NULL), SB_OK);
-    }
+    measure = measured(&f, 0);
     const sb_reflection_record *rows;
     size_t count;
     assert_int_equal(sb_measure_reflections(measure, &rows, &count, NULL), SB_OK);
@@ -144,13 +152,7 @@ static void longer_waves_need_their_length(void **state)
         f.sets[0].bound = true;
         for (int g = 0; g < 4; g++) f.gauges[g].x = places[g];
         if (given) f.sets[0].length = 1.04 * 2 * M_PI / sb_wave_number(period, depth, 9.81);
-        put_surface(&f, 0.1, 0);
-        assert_int_equal(sb_measure_create(&f.world.scene, &f.world.model, &f.world.sim, &measure, NULL), SB_OK);
-        for (int s = 1; s <= 75; s++) {
-            f.world.sim.report.time = 0.05 * s;
-            put_surface(&f, 0.1, 0);
-            assert_int_equal(sb_measure_step(measure, &f.world.sim, NULL), SB_OK);
-        }
+        measure = measured(&f, 0);
         const sb_reflection_record *rows;
         size_t count;
         assert_int_equal(sb_measure_reflections(measure, &rows, &count, NULL), SB_OK);
@@ -173,13 +175,7 @@ static void dry_gauges_are_left_out(void **state)
         make(&f);
         f.world.scene.measure.reflection_count = 1;
         for (int g = 0; g < dry; g++) f.gauges[g].x = 20 + g; /* beyond the water */
-        put_surface(&f, 0.1, 0.04);
-        assert_int_equal(sb_measure_create(&f.world.scene, &f.world.model, &f.world.sim, &measure, NULL), SB_OK);
-        for (int s = 1; s <= 75; s++) {
-            f.world.sim.report.time = 0.05 * s;
-            put_surface(&f, 0.1, 0.04);
-            assert_int_equal(sb_measure_step(measure, &f.world.sim, NULL), SB_OK);
-        }
+        measure = measured(&f, 0.04);
         size_t count;
         const sb_reflection_record *row;
         assert_int_equal(sb_measure_reflections(measure, &row, &count, NULL), SB_OK);
