@@ -31,10 +31,14 @@ static double share_in_time(const group *g, double focus)
     return sum / all;
 }
 
-/* The share of a motion without end grows with the time, and is 1 after the ramp and the longest travel. */
-static double earliest_focus(const group *all)
+static group without_end(const group *g)
 {
-    const group endless = {all->count, all->amplitude, all->travel, all->ramp, (double)INFINITY}, *g = &endless;
+    return (group){g->count, g->amplitude, g->travel, g->ramp, (double)INFINITY};
+}
+
+/* The share of a motion without end grows with the time, and is 1 after the ramp and the longest travel. */
+static double earliest_focus(const group *g)
+{
     double low = 0, high = 0;
     for (size_t i = 0; i < g->count; i++) high = fmax(high, g->travel[i] + g->ramp);
     for (int i = 0; i < 60; i++) {
@@ -52,8 +56,8 @@ static void warn_of_focus(const sb_wavemaker_use *maker, const group *g, sb_warn
     char text[500];
     const double share = share_in_time(g, maker->law.focus);
     if (share >= ENOUGH) return;
-    if (share_in_time(&(group){g->count, g->amplitude, g->travel, g->ramp, (double)INFINITY}, maker->law.focus) >=
-        ENOUGH) {
+    const group endless = without_end(g);
+    if (share_in_time(&endless, maker->law.focus) >= ENOUGH) {
         snprintf(
             text, sizeof text,
             "wave maker \"%s\": its motion ends after %g s, and of the waves that focus at %g s only %.2g %% of the "
@@ -65,7 +69,7 @@ static void warn_of_focus(const sb_wavemaker_use *maker, const group *g, sb_warn
     snprintf(text, sizeof text,
              "wave maker \"%s\": its focus at %g s is too early: by their group speeds waves with %.2g %% of the crest "
              "come %g m far by then; expected a focus of at least %.3g s, or a shorter distance",
-             maker->name, maker->law.focus, 100 * share, maker->law.distance, earliest_focus(g));
+             maker->name, maker->law.focus, 100 * share, maker->law.distance, earliest_focus(&endless));
     visit(context, text);
 }
 
