@@ -5,7 +5,7 @@
 #include "app/warning_visit.h"
 #include "scene/scene.h"
 
-/* Warns of numbers that differ from those of the preset although the run does not use them. */
+/* Warns of values that differ from those of the preset although the run does not use them. */
 void sb_numerics_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context);
 
 #endif
