@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 
-enum { AROUND = 27 }; /* a cell and its neighbours */
+enum { SIDE = 3, AROUND = 27 }; /* a cell and its neighbours: along one axis, in all */
 
 SB_INLINE sb_cell_sum plus(sb_cell_sum a, sb_cell_sum b)
 {
@@ -46,55 +46,69 @@ static sb_cell_sum sum_of_water(const sb_sim *sim, uint64_t code)
     return cell < 0 ? sum_of(sim, &sim->ghosts.halo_cells, code, halo_sums(sim)) : sim->work.cell_sum[cell];
 }
 
-/* The sums around cell c. Returns whether any tensor among them is not 0: beside walls and in shallow water all are. */
+/* Layers of cells along y that a mean has: in a slice there is one. */
+SB_INLINE int layers_of(const sb_sim *sim)
+{
+    return sim->constant.dimension == 2 ? 1 : SIDE;
+}
+
+/* The sums around cell c, x fastest, z slowest. Returns whether any tensor among them is not 0: beside walls and in
+   shallow water all are. */
 static bool gather(const sb_sim *sim, size_t c, sb_cell_sum around[AROUND])
 {
-    const int layers = sim->constant.dimension == 2 ? 0 : 1;
+    const int layers = layers_of(sim);
     sb_i4 bits = {0};
-    for (int k = 0; k < AROUND; k++) {
-        const int dx = k % 3 - 1, dy = k / 3 % 3 - 1, dz = k / 9 - 1;
-        around[k] = (sb_cell_sum){{0}, {0}};
-        if (dy < -layers || dy > layers) continue;
-        const uint64_t code = sim->cells.code[c] + sb_cell_step(dx, dy, dz);
-        around[k] = sum_of_water(sim, code);
-        if (sim->ghosts.any) around[k] = plus(around[k], sum_of(sim, &sim->ghosts.cells, code, image_sums(sim)));
-        bits |= (sb_i4)around[k].rest | ((sb_i4)around[k].more & (sb_i4){-1, 0, 0, 0});
-    }
+    for (int z = -1; z <= 1; z++)
+        for (int y = -(layers / 2); y <= layers / 2; y++)
+            for (int x = -1; x <= 1; x++, around++) {
+                const uint64_t code = sim->cells.code[c] + sb_cell_step(x, y, z);
+                *around = sum_of_water(sim, code);
+                if (sim->ghosts.any) *around = plus(*around, sum_of(sim, &sim->ghosts.cells, code, image_sums(sim)));
+                bits |= (sb_i4)around->rest | ((sb_i4)around->more & (sb_i4){-1, 0, 0, 0});
+            }
     return (bits[0] | bits[1] | bits[2] | bits[3]) != 0;
 }
 
 /* Weights of the cells before, at and after a place, which is at u from 0 to 1 in its own. */
-SB_INLINE void spline(float u, float weight[3])
+SB_INLINE void spline(float u, float weight[SIDE])
 {
     weight[0] = 0.5f * (1 - u) * (1 - u);
     weight[2] = 0.5f * u * u;
     weight[1] = 1 - weight[0] - weight[2];
 }
 
+/* The mean at a place: a sum whose count is 1. layers is a constant where this is called: the loops have no branches.
+ */
+SB_INLINE sb_cell_sum mean_at(const sb_cell_sum around[AROUND], sb_record place, uint32_t inside, int layers)
+{
+    const float per_edge = 1 / ((float)inside + 1);
+    float weight[3][SIDE];
+    for (int axis = 0; axis < 3; axis++) spline((float)(place[axis] & inside) * per_edge, weight[axis]);
+    sb_cell_sum sum = {{0}, {0}};
+    for (int z = 0; z < SIDE; z++)
+        for (int y = 0; y < layers; y++)
+            for (int x = 0; x < SIDE; x++, around++) {
+                const sb_f4 w = sb_splat(weight[0][x] * (layers == 1 ? 1 : weight[1][y]) * weight[2][z]);
+                sum = plus(sum, (sb_cell_sum){around->rest * w, around->more * w});
+            }
+    const sb_f4 count = sb_splat(sum.more[1]);
+    return (sb_cell_sum){sum.rest / count, sum.more / count};
+}
+
 SB_MULTIVERSION
 static void mean_in_cell(sb_sim *sim, size_t c, float *xx, sb_f4 *rest)
 {
     sb_cell_sum around[AROUND];
-    const uint32_t begin = sim->cells.begin[c], end = sim->cells.begin[c + 1];
-    const bool any = gather(sim, c, around), flat = sim->constant.dimension == 2;
+    const bool any = gather(sim, c, around), flat = layers_of(sim) == 1;
     const uint32_t inside = ((uint32_t)1 << sim->space.shift) - 1;
-    const float per_edge = 1 / ((float)inside + 1);
-    for (uint32_t i = begin; i < end; i++) {
-        float weight[3][3];
-        sb_cell_sum sum = {{0}, {0}};
+    for (uint32_t i = sim->cells.begin[c]; i < sim->cells.begin[c + 1]; i++) {
+        sb_cell_sum mean = {{0}, {0}};
         if (any) {
-            for (int axis = 0; axis < 3; axis++)
-                spline((float)(sim->state.position[i][axis] & inside) * per_edge, weight[axis]);
-            if (flat) weight[1][0] = weight[1][2] = 0, weight[1][1] = 1;
-            for (int k = 0; k < AROUND; k++) {
-                const sb_f4 w = sb_splat(weight[0][k % 3] * weight[1][k / 3 % 3] * weight[2][k / 9]);
-                sum = plus(sum, (sb_cell_sum){around[k].rest * w, around[k].more * w});
-            }
-            sum.rest /= sb_splat(sum.more[1]);
-            sum.more[0] /= sum.more[1];
+            const sb_record place = sim->state.position[i];
+            mean = flat ? mean_at(around, place, inside, 1) : mean_at(around, place, inside, SIDE);
         }
-        rest[i] = sum.rest;
-        xx[i] = sum.more[0];
+        rest[i] = mean.rest;
+        xx[i] = mean.more[0];
     }
 }
 
