@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "physics/dispersion.h"
+#include "physics/regular_wave.h"
 #include "physics/wavemaker.h"
 
 #include <math.h>
@@ -99,23 +100,18 @@ static sb_status visit_group(const sb_wavemaker_use *maker, const sb_paddle *pad
     return made ? SB_OK : sb_fail_memory(error, "a wave maker");
 }
 
-/* Extent of the domain along a direction, m. */
-static double extent_along(const sb_domain *domain, sb_vec3 direction)
-{
-    const sb_vec3 size = sb_sub(domain->max, domain->min);
-    return fabs(direction.x) * size.x + fabs(direction.y) * size.y + fabs(direction.z) * size.z;
-}
-
-static void warn_of_distance(const sb_scene *scene, const sb_wavemaker_use *maker, sb_warning_visit *visit,
-                             void *context)
+/* Sums of linear waves have no long wave that is bound to their groups. In shallow water it is as high as a good part
+   of the waves. Regular waves have theories for shallow water, and a warning of their own. */
+static void warn_of_long_waves(const sb_wavemaker_use *maker, const sb_paddle *paddle, sb_warning_visit *visit,
+                               void *context)
 {
     char text[400];
-    const double extent = extent_along(&scene->domain, maker->direction);
-    if (maker->law.distance <= extent) return;
+    const sb_wave_facts *facts = maker->law.kind->facts(paddle->state);
+    if (maker->law.kind->needs & SB_WM_THEORY || facts->ursell < SB_URSELL_LIMIT) return;
     snprintf(text, sizeof text,
-             "wave maker \"%s\": its distance of %g m is outside of the domain, which is %.4g m long along the "
-             "direction: the waves never come there; expected a shorter distance or a longer domain",
-             maker->name, maker->law.distance, extent);
+             "wave maker \"%s\": its waves are linear, but H L^2/d^3 = %.3g is above %.3g: free long waves and free "
+             "waves of twice the frequency will come with them; expected lower or shorter waves, or deeper water",
+             maker->name, facts->ursell, SB_URSELL_LIMIT);
     visit(context, text);
 }
 
@@ -207,10 +203,10 @@ sb_status sb_wave_warnings(const sb_scene *scene, sb_warning_visit *visit, void 
         const unsigned needs = maker->law.kind->needs;
         sb_paddle paddle = {0};
         warn_of_start(scene, maker, visit, context);
-        if (needs & SB_WM_DISTANCE) warn_of_distance(scene, maker, visit, context);
         if (!(needs & SB_WM_TRAIN)) continue;
         status = sb_paddle_create(&maker->law, &paddle, error);
         if (status == SB_OK) warn_of_ramp(scene, maker, paddle.duration, visit, context);
+        if (status == SB_OK) warn_of_long_waves(maker, &paddle, visit, context);
         if (status == SB_OK && needs & SB_WM_FOCUS) warn_of_late_focus(scene, maker, visit, context);
         if (status == SB_OK && needs & SB_WM_FOCUS) status = visit_group(maker, &paddle, visit, context, error);
         if (status == SB_OK && needs & SB_WM_FILE && needs & SB_WM_DISTANCE)

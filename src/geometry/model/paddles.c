@@ -105,6 +105,18 @@ static sb_status check_travel(const sb_scene *scene, const sb_wavemaker_use *use
         use->name, 0 - way.least, way.most, behind, ahead);
 }
 
+/* Where the waves of a signal, or that focus, are those that are asked for. */
+static sb_status check_distance(const sb_scene *scene, const sb_wavemaker_use *use, extent paddle, sb_model *model,
+                                sb_error *error)
+{
+    const double ahead = sb_domain_end(&scene->domain, use->direction) - paddle.front;
+    if (!(use->law.kind->needs & SB_WM_DISTANCE) || use->law.distance <= ahead) return SB_OK;
+    return sb_model_warn(model, error,
+                         "wave maker \"%s\": its distance of %g m is outside of the domain, which ends %.4g m ahead of "
+                         "it: the waves never come there; expected a shorter distance or a longer domain",
+                         use->name, use->law.distance, ahead);
+}
+
 /* ---- sponges ---- */
 
 static sb_status check_sponges(const sb_scene *scene, const sb_wavemaker_use *use, extent paddle, sb_model *model,
@@ -139,6 +151,7 @@ sb_status sb_model_check_paddles(const sb_scene *scene, const sb_model_space *sp
         if (status == SB_OK) status = check_facing(scene, w, &s, error);
         if (status == SB_OK) status = check_width(scene, w, &s, model, error);
         if (status == SB_OK) status = check_travel(scene, use, paddle, model, error);
+        if (status == SB_OK) status = check_distance(scene, use, paddle, model, error);
         if (status == SB_OK) status = check_sponges(scene, use, paddle, model, error);
     }
     return status;
