@@ -1,7 +1,7 @@
 #include "sim/passes/cpu/images.h"
 
 #include "base/memory.h"
-#include "sim/passes/cpu/path_weights.h"
+#include "sim/passes/cpu/path_parts.h"
 
 #include <math.h>
 

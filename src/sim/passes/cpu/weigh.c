@@ -1,4 +1,5 @@
 /* Weights of the hits of one particle. Most are plainly 0 or 1. */
+#include "sim/passes/cpu/path_hidden.h"
 #include "sim/passes/cpu/path_weights.h"
 #include "sim/passes/cpu/soft_edges.h"
 
