@@ -2,21 +2,13 @@
    lists into shared pools. */
 #include "base/memory.h"
 #include "sim/passes/cpu/cpu.h"
-#include "sim/passes/cpu/lists.h"
+#include "sim/passes/cpu/pools.h"
 #include "sim/passes/cpu/searcher.h"
 #include "sim/passes/groups.h"
 #include "sim/walls/mirrors.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-/* Reserves `count` entries of a pool, from *at on. Returns false if the pool is too small; `used` is then the size
-   needed. The place in the pool depends on timing; the contents do not. */
-static bool take(size_t *used, size_t capacity, size_t count, size_t *at)
-{
-    *at = __atomic_fetch_add(used, count, __ATOMIC_RELAXED);
-    return *at + count <= capacity;
-}
 
 /* A group with more facets or images around it than the search can hold, which is to be divided. */
 static bool is_crowded(const sb_group *group)
@@ -28,35 +20,19 @@ static bool is_crowded(const sb_group *group)
 static bool publish(sb_sim *sim, sb_list_builder *lists, size_t begin, size_t end)
 {
     sb_groups *groups = &sim->groups;
-    size_t four, wall, run, image, plane, edge;
-    bool room = take(&sim->work.pairs.used, sim->work.pairs.capacity, lists->fours, &four);
-    room &= take(&sim->work.wall_pairs.used, sim->work.wall_pairs.capacity, lists->walls, &wall);
-    room &= take(&groups->used, groups->room, lists->runs, &run);
-    room &= take(&groups->images_used, groups->images_room, lists->images, &image);
-    room &= take(&sim->work.edge_pairs.used, sim->work.edge_pairs.capacity, lists->edges, &edge);
-    room &= take(&groups->planes_used, groups->planes_room, lists->planes, &plane);
-    if (room && lists->fours > 0) memcpy(sim->work.pairs.four + four, lists->four, lists->fours * sizeof *lists->four);
-    if (room && lists->walls > 0) {
-        memcpy(sim->work.wall_pairs.index + wall, lists->wall, lists->walls * sizeof *lists->wall);
-        memcpy(sim->work.wall_pairs.slope + wall, lists->wall_slope, lists->walls * sizeof *lists->wall_slope);
-    }
-    if (room && lists->runs > 0) memcpy(groups->run + run, lists->run, lists->runs * sizeof *lists->run);
-    if (room && lists->images > 0) memcpy(groups->image + image, lists->image, lists->images * sizeof *lists->image);
-    if (room && lists->planes > 0) memcpy(groups->plane + plane, lists->plane, lists->planes * sizeof *lists->plane);
-    if (room && lists->edges > 0)
-        memcpy(sim->work.edge_pairs.pair + edge, lists->edge, lists->edges * sizeof *lists->edge);
+    size_t at[SB_POOLS];
+    const bool room = sb_pools_append(sim, lists, at);
     for (size_t g = begin; g < end; g++) {
         if (is_crowded(&groups->group[g])) continue;
-        groups->group[g].run += (uint32_t)run;
-        groups->group[g].image += (uint32_t)image;
-        groups->group[g].plane += (uint32_t)plane;
+        groups->group[g].run += (uint32_t)at[SB_POOL_RUNS];
+        groups->group[g].image += (uint32_t)at[SB_POOL_IMAGES];
+        groups->group[g].plane += (uint32_t)at[SB_POOL_PLANES];
         for (size_t i = groups->group[g].first; i < groups->group[g].end; i++) {
-            sim->work.pairs.first[i] += (uint32_t)four;
-            if (sim->needs.wall_lists) sim->work.wall_pairs.first[i] += (uint32_t)wall;
-            if (sim->needs.images) sim->work.edge_pairs.first[i] += (uint32_t)edge;
+            sim->work.pairs.first[i] += (uint32_t)at[SB_POOL_FOURS];
+            if (sim->needs.wall_lists) sim->work.wall_pairs.first[i] += (uint32_t)at[SB_POOL_WALLS];
+            if (sim->needs.images) sim->work.edge_pairs.first[i] += (uint32_t)at[SB_POOL_EDGES];
         }
     }
-    lists->fours = lists->walls = lists->runs = lists->images = lists->planes = lists->edges = 0;
     return room;
 }
 
@@ -143,8 +119,7 @@ static int attempt(sb_sim *sim, const sb_search_form *form, bool *too_small, uns
     bool divided = false;
     *too_small = false;
     *full = 0;
-    sim->work.pairs.used = sim->work.wall_pairs.used = sim->groups.used = 0;
-    sim->groups.images_used = sim->groups.planes_used = sim->work.edge_pairs.used = 0;
+    sb_pools_clear(sim);
     for (;;) {
         bool small;
         unsigned over;
@@ -157,85 +132,6 @@ static int attempt(sb_sim *sim, const sb_search_form *form, bool *too_small, uns
     /* In the order of their particles again. */
     if (divided) qsort(sim->groups.group, sim->groups.count, sizeof *sim->groups.group, by_place);
     return 0;
-}
-
-/* New size of a pool that was too small. A larger reserve costs memory for the rest of the run, a smaller one another
-   search now and then. */
-static size_t with_reserve(size_t used)
-{
-    return used + used / 32 + 1024;
-}
-
-/* A larger array in place of one that was too small; NULL without memory. */
-static void *renewed(void *array, size_t used, size_t size)
-{
-    sb_free(array);
-    return sb_alloc_untouched(with_reserve(used), size);
-}
-
-static size_t capacity_of(const void *array, size_t used)
-{
-    return array ? with_reserve(used) : 0;
-}
-
-/* Enlarges the pools that were too small. Returns 0, or -1 without memory. */
-static int enlarge(sb_sim *sim)
-{
-    sb_lists *water = &sim->work.pairs;
-    sb_pairs *wall = &sim->work.wall_pairs;
-    sb_edge_pairs *edges = &sim->work.edge_pairs;
-    sb_groups *groups = &sim->groups;
-    if (water->used > water->capacity) {
-        water->four = renewed(water->four, water->used, sizeof *water->four);
-        water->capacity = capacity_of(water->four, water->used);
-    }
-    if (wall->used > wall->capacity) {
-        wall->index = renewed(wall->index, wall->used, sizeof *wall->index);
-        wall->slope = renewed(wall->slope, wall->used, sizeof *wall->slope);
-        wall->capacity = wall->slope ? capacity_of(wall->index, wall->used) : 0;
-    }
-    if (edges->used > edges->capacity) {
-        edges->pair = renewed(edges->pair, edges->used, sizeof *edges->pair);
-        edges->capacity = capacity_of(edges->pair, edges->used);
-    }
-    if (groups->used > groups->room) {
-        groups->run = renewed(groups->run, groups->used, sizeof *groups->run);
-        groups->room = capacity_of(groups->run, groups->used);
-    }
-    if (groups->images_used > groups->images_room) {
-        groups->image = renewed(groups->image, groups->images_used, sizeof *groups->image);
-        groups->images_room = capacity_of(groups->image, groups->images_used);
-    }
-    if (groups->planes_used > groups->planes_room) {
-        groups->plane = renewed(groups->plane, groups->planes_used, sizeof *groups->plane);
-        groups->planes_room = capacity_of(groups->plane, groups->planes_used);
-    }
-    return water->used <= water->capacity && wall->used <= wall->capacity && edges->used <= edges->capacity &&
-                   groups->used <= groups->room && groups->images_used <= groups->images_room &&
-                   groups->planes_used <= groups->planes_room
-               ? 0
-               : -1;
-}
-
-/* The pools are indexed by 32 bits. */
-static sb_status check_sizes(const sb_sim *sim, sb_error *error)
-{
-    const struct {
-        size_t used;
-        const char *what;
-    } pools[] = {
-        {sim->work.pairs.used, "groups of four pairs of neighbours"},
-        {sim->work.wall_pairs.used, "pairs with walls"},
-        {sim->work.edge_pairs.used, "pairs at edges"},
-        {sim->groups.used, "runs of records"},
-        {sim->groups.images_used, "images of particles"},
-        {sim->groups.planes_used, "planes near groups"},
-    };
-    for (size_t p = 0; p < sizeof pools / sizeof *pools; p++)
-        if (pools[p].used > UINT32_MAX / 2)
-            return sb_fail(error, SB_FAILED, "%zu %s: expected fewer than 2^31; more ranks, or a coarser resolution",
-                           pools[p].used, pools[p].what);
-    return SB_OK;
 }
 
 static sb_status refuse(const sb_sim *sim, unsigned full, sb_error *error)
@@ -262,9 +158,8 @@ sb_status sb_search_all(sb_sim *sim, const sb_search_form *form, sb_error *error
         if (attempt(sim, form, &too_small, &full) != 0) return sb_fail_memory(error, "neighbour lists");
         if (full) return refuse(sim, full, error);
         if (!too_small) return SB_OK;
-        const sb_status status = check_sizes(sim, error);
+        const sb_status status = sb_pools_enlarge(sim, error);
         if (status != SB_OK) return status;
-        if (enlarge(sim) != 0) return sb_fail_memory(error, "neighbour lists");
     }
 }
 
