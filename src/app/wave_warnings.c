@@ -100,8 +100,8 @@ static sb_status visit_group(const sb_wavemaker_use *maker, const sb_paddle *pad
     return made ? SB_OK : sb_fail_memory(error, "a wave maker");
 }
 
-/* Sums of linear waves have no long wave that is bound to their groups. In shallow water it is as high as a good part
-   of the waves. Regular waves have theories for shallow water, and a warning of their own. */
+/* The paddle of a linear sum does not make the waves that are bound to its groups and crests, which are high in shallow
+   water. Regular waves have theories for shallow water, and a warning of their own. */
 static void warn_of_long_waves(const sb_wavemaker_use *maker, const sb_paddle *paddle, sb_warning_visit *visit,
                                void *context)
 {

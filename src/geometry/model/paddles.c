@@ -105,7 +105,7 @@ static sb_status check_travel(const sb_scene *scene, const sb_wavemaker_use *use
         use->name, 0 - way.least, way.most, behind, ahead);
 }
 
-/* Where the waves of a signal, or that focus, are those that are asked for. */
+/* A signal and a focus have a place ahead of the paddle. */
 static sb_status check_distance(const sb_scene *scene, const sb_wavemaker_use *use, extent paddle, sb_model *model,
                                 sb_error *error)
 {

@@ -77,8 +77,7 @@ SB_INLINE void spline(float u, float weight[SIDE])
     weight[1] = 1 - weight[0] - weight[2];
 }
 
-/* The mean at a place: a sum whose count is 1. layers is a constant where this is called: the loops have no branches.
- */
+/* The mean at a place: a sum whose count is 1. Callers give `layers` as a constant, so that loops have no branches. */
 SB_INLINE sb_cell_sum mean_at(const sb_cell_sum around[AROUND], sb_record place, uint32_t inside, int layers)
 {
     const float per_edge = 1 / ((float)inside + 1);
