@@ -78,22 +78,20 @@ static sb_status visit_group(const sb_wavemaker_use *maker, const sb_paddle *pad
                              void *context, sb_error *error)
 {
     const sb_wavemaker_parameters *law = &maker->law;
-    const sb_wave_facts *facts = paddle->kind->facts(paddle->state);
-    sb_band_part *band = sb_alloc(facts->count, sizeof *band);
-    group g = {.amplitude = sb_alloc(facts->count, sizeof *g.amplitude),
-               .travel = sb_alloc(facts->count, sizeof *g.travel),
-               .ramp = facts->ramp,
+    size_t count;
+    sb_band_part *band = sb_paddle_band(paddle, &count);
+    group g = {.count = count,
+               .amplitude = sb_alloc(count, sizeof *g.amplitude),
+               .travel = sb_alloc(count, sizeof *g.travel),
+               .ramp = paddle->kind->facts(paddle->state)->ramp,
                .lasts = law->lasts};
     const bool made = band && g.amplitude && g.travel;
-    if (made) {
-        g.count = paddle->kind->band(paddle->state, band, facts->count);
-        for (size_t i = 0; i < g.count; i++) {
-            g.amplitude[i] = sqrt(band[i].weight);
-            const double k = sb_wave_number(2 * M_PI / band[i].omega, law->depth, law->gravity);
-            g.travel[i] = law->distance / sb_group_speed(band[i].omega, k, law->depth);
-        }
-        warn_of_focus(maker, &g, visit, context);
+    for (size_t i = 0; made && i < count; i++) {
+        const double k = sb_wave_number(2 * M_PI / band[i].omega, law->depth, law->gravity);
+        g.amplitude[i] = sqrt(band[i].weight);
+        g.travel[i] = law->distance / sb_group_speed(band[i].omega, k, law->depth);
     }
+    if (made) warn_of_focus(maker, &g, visit, context);
     sb_free(band);
     sb_free(g.amplitude);
     sb_free(g.travel);

@@ -8,6 +8,11 @@ double sb_breaking_height(double number, double depth)
     return fmin(0.142 * 2 * M_PI / number * tanh(number * depth), SB_SOLITARY_HIGHEST * depth);
 }
 
+bool sb_is_tide(double length, double depth)
+{
+    return length > 1000 * depth;
+}
+
 double sb_breaking_shown(double most)
 {
     const double unit = most > 0 ? pow(10, floor(log10(most)) - 2) : 1;

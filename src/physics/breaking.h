@@ -4,6 +4,8 @@
 
 #include "base/status.h"
 
+#include <stdbool.h>
+
 /* Greatest height of a solitary wave over its depth [Longuet-Higgins and Fenton 1974: 0.827; Hunter and Vanden-Broeck
    1983: 0.8332]. Waves of constant form approach it with their length. */
 #define SB_SOLITARY_HIGHEST 0.8332
@@ -14,6 +16,10 @@ double sb_breaking_height(double number, double depth);
 
 /* Greatest height of a standing wave over L tanh kd [Penney and Price 1952: 0.218 in deep water]. */
 #define SB_STANDING_STEEPEST 0.218
+
+/* Returns whether a wave (m) is above a thousand depths (m) long: waves of the amplitude a break after L d/(3 pi a),
+   here a hundred depths or more, so that at the scale of a scene it is a tide. */
+bool sb_is_tide(double length, double depth);
 
 /* A limit rounded down to three digits, as messages show it: what they name is accepted. */
 double sb_breaking_shown(double most);

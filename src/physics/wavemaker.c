@@ -117,8 +117,7 @@ void sb_paddle_destroy(sb_paddle *paddle)
     *paddle = (sb_paddle){0};
 }
 
-/* The frequencies of a paddle's waves, which the caller frees; NULL without memory. */
-static sb_band_part *band_of(const sb_paddle *paddle, size_t *count)
+sb_band_part *sb_paddle_band(const sb_paddle *paddle, size_t *count)
 {
     const size_t most = paddle->kind->facts(paddle->state)->count + 1;
     sb_band_part *band = sb_alloc(most, sizeof *band);
@@ -130,7 +129,7 @@ sb_status sb_paddle_fit_absorption(const sb_wavemaker_parameters *parameters, sb
                                    sb_absorbing_filter *filter, sb_error *error)
 {
     size_t count;
-    sb_band_part *band = band_of(paddle, &count);
+    sb_band_part *band = sb_paddle_band(paddle, &count);
     if (!band) return sb_fail_memory(error, "an absorbing paddle");
     double near = 0, all = 0; /* weights of the waves that are longer than four times the distance, and of all */
     for (size_t i = 0; i < count; i++) {
@@ -154,7 +153,7 @@ double sb_paddle_reflection(const sb_wavemaker_parameters *parameters, const sb_
 {
     size_t count;
     double sum = 0, energy = 0;
-    sb_band_part *band = band_of(paddle, &count);
+    sb_band_part *band = sb_paddle_band(paddle, &count);
     if (!band) return (double)NAN;
     for (size_t i = 0; i < count; i++) {
         const double share = sb_absorbing_reflection(filter, parameters->motion, band[i].omega, parameters->depth,

@@ -116,6 +116,10 @@ sb_status sb_paddle_create(const sb_wavemaker_parameters *parameters, sb_paddle 
 double sb_paddle_displacement(const sb_paddle *paddle, double t);
 void sb_paddle_destroy(sb_paddle *paddle);
 
+/* Returns the frequencies of the waves of a train's paddle, which the caller frees with sb_free; NULL without memory.
+ */
+sb_band_part *sb_paddle_band(const sb_paddle *paddle, size_t *count);
+
 /* Speed of the waves that the paddle makes if they keep their form, m/s; 0: they do not, or the law does not tell. */
 double sb_paddle_celerity(const sb_wavemaker_parameters *parameters, const sb_paddle *paddle);
 

@@ -151,11 +151,8 @@ static sb_status check_regular(sb_reader *reader, const sb_yaml *map, const sb_g
     return sb_reader_fail(reader, map, NULL, "%s", why.text);
 }
 
-/* In depths. Long waves of the amplitude a break after L d/(3 pi a), here a hundred depths or more: at the scale of a
-   scene they are tides, which may be as high as the water is deep. */
-static const double TIDE = 1000;
-
-/* Refuses components that break, each alone or all together. Those that are tides count for themselves. */
+/* Refuses components that break, each alone or all together. Those that are tides count for themselves, and may be
+   as high as the water is deep. */
 static sb_status check_components(sb_reader *reader, const sb_yaml *map, const sb_given_sea *given)
 {
     sb_sum_height all = {0};
@@ -163,7 +160,7 @@ static sb_status check_components(sb_reader *reader, const sb_yaml *map, const s
     for (size_t i = 0; i < given->component_count; i++) {
         const sb_given_component *c = &given->components[i];
         const double number = sb_wave_number(c->period, given->depth, reader->scene->fluid.gravity);
-        const bool tide = 2 * M_PI / number > TIDE * given->depth;
+        const bool tide = sb_is_tide(2 * M_PI / number, given->depth);
         const double most = tide ? 2 * given->depth : sb_breaking_height(number, given->depth);
         if (2 * c->amplitude > most)
             return sb_reader_fail(reader, map, "components",

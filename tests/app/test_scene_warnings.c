@@ -22,6 +22,10 @@
     "domain: {min: [0, 0], max: [5, 1], sides: {x_min: sea}}\nwater: {level: 0.5, seed: [1, 0.2]}\n"                   \
     "bodies: [{name: shore, shape: box, min: [4, 0], max: [6, 0.7]}]\nsea: {" source "}\n"                             \
     "measure: {interval: 0.01" measure "}\n"
+/* A wave at the start on half a metre of water that repeats after four metres. */
+#define PERIODIC(wave)                                                                                                 \
+    TANK "domain: {min: [0, 0], max: [4, 1], sides: {x_min: periodic, x_max: periodic}}\n"                             \
+         "water: {level: 0.5, seed: [1, 0.2], wave: {" wave "}}\n"
 #define SUM(waves) "source: theory, wave: components, depth: 0.5, components: [" waves "]"
 
 /* A flume with a metre of water: a paddle of these keys, sponges and measurements. */
@@ -152,12 +156,20 @@ static const struct {
     {GIVEN(SUM("{amplitude: 0.1, period: 2}, {amplitude: 0.01, period: 0.75}, {amplitude: 0.01, period: 0.7}"), ""),
      "sea.components[2]: its wavelength of 0.765 m is 15 times the particle spacing, and 1 other is also short",
      "expected 20 times or more"},
-    {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\nmeasure: {interval: 0.01}\noutput: {plots: false}\n"
-     "domain: {min: [0, 0], max: [4, 1], sides: {x_min: periodic, x_max: periodic}}\n"
-     "water: {level: 0.5, seed: [1, 0.2], wave: {kind: components, depth: 0.5, components: [{amplitude: 0.15, "
-     "wavelength: 4}, {amplitude: 0.01, wavelength: 0.8}]}}\n",
+    {PERIODIC("kind: components, depth: 0.5, components: [{amplitude: 0.15, wavelength: 4}, {amplitude: 0.01, "
+              "wavelength: 0.8}]"),
      "water.wave.components[1]: its wavelength of 0.8 m is 16 times the particle spacing: such waves fade soon",
      "expected 20 times or more"},
+    {GIVEN(SUM("{amplitude: 0.13, period: 6}"), ""),
+     "sea.components: the waves are linear, but H L^2/d^3 = 360 is above 26.3", "expected lower or shorter waves"},
+    {PERIODIC("kind: components, depth: 0.5, components: [{amplitude: 0.13, wavelength: 4}]"),
+     "water.wave.components: the waves are linear, but H L^2/d^3 = 33.3 is above 26.3", "or deeper water"},
+    {PERIODIC("kind: regular, order: linear, depth: 0.5, height: 0.25, wavelength: 4"),
+     "water.wave.order: the waves are linear, but H L^2/d^3 = 32 is above 26.3", "or deeper water"},
+    {TANK "domain: {min: [0, 0], max: [3, 0.8]}\nwater: {level: 0.5, seed: [1, 0.2], wave: {kind: standing, height: "
+          "0.15, depth: 0.5, wavelength: 4}}\n",
+     "water.wave: the water reaches from x = 0 to 3 m, and a standing wave with a crest at x = 0 m",
+     "expected for example a position of 0 m and a wavelength of 3 m"},
     {GIVEN("source: none", ", planes: [{name: land, from: [4.5], record: true}]"),
      "measure.planes \"land\": no still water stands along it", "expected a plane in the water, outside of bodies"},
     {GIVEN("source: none", ", planes: [{name: line, from: [0.1], record: true}]"),
@@ -203,6 +215,14 @@ static const struct {
      "wavemakers: [{name: w, body: paddle, kind: absorber, depth: 0.5, period: 1.5}]\n",
      "wave maker \"w\": it absorbs by the mean surface over its face of 2 m, and 1.4 m of that have water ahead",
      "expected a body as wide as the water"},
+    {FLUME("kind: irregular, height: 0.06, period: 1.2", "", ""),
+     "wave maker \"w\": 48 % of the energy of its waves is "
+     "in lengths below 2 m, 20 particle spacings",
+     "expected a finer resolution or longer waves"},
+    {FLUME("kind: components, file: short.txt", "", ""),
+     "wave maker \"w\": 31 % of the energy of its waves is in "
+     "lengths below 2 m",
+     "such waves fade soon"},
     {FLUME("kind: irregular, height: 0.2, period: 1e6", "", ""), "wave maker \"w\": it moves ",
      "expected lower or shorter waves"},
 };
@@ -211,6 +231,7 @@ static void check_and_run_give_the_same_warnings(void **state)
 {
     (void)state;
     write_text("lift.asc", "ncols 2\nnrows 2\nxllcenter 2\nyllcenter -1\ncellsize 2\n-0.7 0\n-0.7 0\n");
+    write_text("short.txt", "0.03 2 0\n0.02 0.8 0\n");
     write_text("list.txt", "0.01 1.5 0\n0.01 1.2 0\n");
     write_text("signal.txt", "0 0\n.1 .01\n.2 0\n.3 -.01\n.4 0\n.5 .01\n.6 0\n.7 -.01\n.8 0\n.9 .01\n1 0\n1.1 -.01\n");
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
@@ -232,11 +253,27 @@ static void check_and_run_give_the_same_warnings(void **state)
 static void right_seas_give_no_warnings(void **state)
 {
     (void)state;
-    write_text("given.yaml", GIVEN(SUM("{amplitude: 0.13, period: 2}, {amplitude: 0.01, period: 1}"),
+    write_text("given.yaml", GIVEN(SUM("{amplitude: 0.13, period: 1.5}, {amplitude: 0.01, period: 1}"),
                                    ", planes: [{name: line, from: [2], record: true}]"));
     outcome o = RUN(0, "check", "given.yaml");
     assert_null(strstr(o.out, "warning: sea"));
     assert_null(strstr(o.out, "warning: measure"));
+    outcome_free(&o);
+    /* The first is a tide, whose amplitude is no height of waves. */
+    write_text("given.yaml", GIVEN(SUM("{amplitude: 0.2, period: 44000}, {amplitude: 0.13, period: 1.5}"), ""));
+    o = RUN(0, "check", "given.yaml");
+    assert_null(strstr(o.out, "warning: sea"));
+    outcome_free(&o);
+    /* Two waves that meet do not grow on their way; and water that ends at a trough. */
+    write_text("met.yaml", PERIODIC("kind: components, depth: 0.5, components: [{amplitude: 0.08, wavelength: 4}, "
+                                    "{amplitude: 0.08, wavelength: 4, direction: -1}]"));
+    o = RUN(0, "check", "met.yaml");
+    assert_null(strstr(o.out, "warning: water"));
+    outcome_free(&o);
+    write_text("standing.yaml", TANK "domain: {min: [0, 0], max: [3, 0.8]}\nwater: {level: 0.5, seed: [1, 0.2], wave: "
+                                     "{kind: standing, height: 0.15, depth: 0.5, position: 3, wavelength: 2}}\n");
+    o = RUN(0, "check", "standing.yaml");
+    assert_null(strstr(o.out, "warning: water"));
     outcome_free(&o);
 }
 

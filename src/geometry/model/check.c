@@ -176,6 +176,7 @@ static sb_status check_water(const sb_scene *scene, const sb_model_space *space,
             model, error, "the water is at most %g m deep, %.2g times the particle spacing: expected %d times or more",
             model->still_depth, model->still_depth / model->spacing, DEPTH_MIN);
     if (status == SB_OK) status = sb_model_warn_wave_sizes(scene, model, error);
+    if (status == SB_OK) status = sb_model_warn_standing(scene, space, model, error);
     return status == SB_OK ? check_depths(scene, space, model, error) : status;
 }
 

@@ -56,8 +56,11 @@ double sb_model_still_depth(const sb_scene *scene, const sb_model *model, const 
 sb_status sb_model_warn_depths(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
 /* wave_sizes.c: warns of waves at the start, given at a side or made by a paddle that are too low or too short for the
-   spacing. */
+   spacing, and of linear waves at the start or given that are too long for their theory. */
 sb_status sb_model_warn_wave_sizes(const sb_scene *scene, sb_model *model, sb_error *error);
+
+/* standing.c: warns of a standing wave at the start whose water does not end at crests or troughs. */
+sb_status sb_model_warn_standing(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 
 /* records.c: warns of recorded planes in which no wave can be recorded. model->sea is made before. */
 sb_status sb_model_warn_records(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
