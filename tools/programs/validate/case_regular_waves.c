@@ -8,7 +8,11 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { WINDOW = 4 }; /* periods, the last ones of the run */
+enum {
+    WINDOW = 4, /* periods: those over which a gauge counts, the last ones of the run for heights */
+    SETTLE = 3, /* periods after the ramp and the way of the first waves */
+    ENOUGH = 5  /* gauges that determine a length */
+};
 
 /* The bars of a case; NaN: reported. */
 typedef struct bars {
@@ -17,14 +21,21 @@ typedef struct bars {
 
 typedef struct train {
     const sb_wavemaker_parameters *law;
+    double ramp;         /* s, of the paddle's motion */
     double linear;       /* m, wavelength of linear theory, in which places are given */
     double first, last;  /* s, the window */
-    double height, mean; /* m, means over the gauges of height and elevation */
     double first_height; /* m, at two wavelengths */
     double second;       /* amplitude of the second harmonic over the first, there */
-    double loss, length; /* %, over ten wavelengths; m */
+    double loss;         /* %, over ten wavelengths */
     double loss_error;   /* %, standard error of the loss */
 } train;
+
+/* The line of phases. */
+typedef struct phases {
+    size_t gauges;
+    double height, mean; /* m, means over the gauges of height and elevation */
+    double length;       /* m */
+} phases;
 
 /* Standard error of the slope of a line through the points, from their distances to it. */
 static double error_of_slope(const sb_curve *points, double a, double slope)
@@ -38,37 +49,77 @@ static double error_of_slope(const sb_curve *points, double a, double slope)
     return points->count > 2 ? sqrt(off / (double)(points->count - 2) / spread) : (double)NAN;
 }
 
-/* The slope of ln H over x gives the loss; the slope of the phase of the first harmonic over x is the wave number. The
-   phases are taken relative to linear theory, and unrolled from gauge to gauge. */
+/* The slope of ln H over x gives the loss. */
 static void follow(const sb_case_run *run, train *w, sb_curve *heights)
 {
     const sb_measure_settings *measure = &run->scene->measure;
-    sb_curve *logarithm = sb_curve_new(run->made), *phase = sb_curve_new(run->made);
-    const double number = 2 * M_PI / w->linear;
-    double a, slope, before = 0;
+    sb_curve *logarithm = sb_curve_new(run->made);
+    double a, slope;
     for (size_t g = 0; g < measure->gauge_count; g++) {
         const double x = measure->gauges[g].x;
         const sb_curve *eta = sb_wave_fit_gauge(run, measure->gauges[g].name);
-        const sb_wave_fit fit = sb_wave_fit_of(eta, w->law->period, w->first, w->last);
         const double height = sb_wave_fit_height(eta, w->law->period, w->first, w->last);
-        const double turned = fit.phase[0] - number * x;
-        before = g ? before + sb_wave_fit_turn(turned, before) : turned;
-        sb_curve_add(phase, x, before);
         sb_curve_add(logarithm, x, log(height));
         sb_curve_add(heights, x / w->linear, height / w->law->height);
-        w->height += height / (double)measure->gauge_count;
-        w->mean += fit.mean / (double)measure->gauge_count;
-        if (g == 0) {
-            w->first_height = height;
-            w->second = fit.amplitude[1] / fit.amplitude[0];
-        }
+        if (g > 0) continue;
+        const sb_wave_fit fit = sb_wave_fit_of(eta, w->law->period, w->first, w->last);
+        w->first_height = height;
+        w->second = fit.amplitude[1] / fit.amplitude[0];
     }
-    w->loss = w->length = w->loss_error = (double)NAN;
+    w->loss = w->loss_error = (double)NAN;
     if (sb_curve_line(logarithm, 0, HUGE_VAL, &a, &slope)) {
         w->loss = 100 * (1 - exp(10 * w->linear * slope));
         w->loss_error = 10 * w->linear * (100 - w->loss) * error_of_slope(logarithm, a, slope);
     }
-    if (sb_curve_line(phase, 0, HUGE_VAL, &a, &slope)) w->length = 2 * M_PI / (number + slope);
+}
+
+/* Waves that start on water at rest leave a free long wave, which runs ahead of them. When it comes back from the end
+   of the flume, it changes level and current, and the length with them. Returns until when the flow at x is steady;
+   before the waves have settled there: 0. */
+static double steady_until(const sb_case_run *run, const train *w, double x)
+{
+    const sb_scene *scene = run->scene;
+    const double omega = 2 * M_PI / w->law->period, number = 2 * M_PI / w->linear;
+    const double settled = w->ramp + SETTLE * w->law->period + x / sb_group_speed(omega, number, w->law->depth);
+    const double back = (2 * scene->domain.max.x - x) / sqrt(scene->fluid.gravity * w->law->depth);
+    const double until = fmin(back, w->last);
+    return until - WINDOW * w->law->period >= settled ? until : 0;
+}
+
+/* The slope of the phase of the first harmonic over x is the wave number. The phases are taken relative to linear
+   theory, and unrolled from gauge to gauge. steady: the gauges where the flow is steady, while it is; otherwise all, in
+   the last periods of the run. */
+static phases phases_of(const sb_case_run *run, const train *w, bool steady)
+{
+    const sb_measure_settings *measure = &run->scene->measure;
+    sb_curve *line = sb_curve_new(run->made);
+    const double number = 2 * M_PI / w->linear, period = w->law->period;
+    phases found = {.length = (double)NAN};
+    double a, slope, before = 0;
+    for (size_t g = 0; g < measure->gauge_count; g++) {
+        const double x = measure->gauges[g].x, last = steady ? steady_until(run, w, x) : w->last;
+        if (!(last > 0)) continue;
+        const sb_curve *eta = sb_wave_fit_gauge(run, measure->gauges[g].name);
+        const sb_wave_fit fit = sb_wave_fit_of(eta, period, last - WINDOW * period, last);
+        const double turned = fit.phase[0] - number * x;
+        before = found.gauges++ ? before + sb_wave_fit_turn(turned, before) : turned;
+        sb_curve_add(line, x, before);
+        found.height += sb_wave_fit_height(eta, period, last - WINDOW * period, last);
+        found.mean += fit.mean;
+    }
+    found.height /= (double)found.gauges;
+    found.mean /= (double)found.gauges;
+    if (sb_curve_line(line, 0, HUGE_VAL, &a, &slope)) found.length = 2 * M_PI / (number + slope);
+    return found;
+}
+
+static double ramp_of(const sb_wavemaker_parameters *law)
+{
+    sb_paddle paddle = {0};
+    if (sb_paddle_create(law, &paddle, NULL) != SB_OK) return (double)NAN;
+    const double ramp = paddle.kind->facts(paddle.state)->ramp;
+    sb_paddle_destroy(&paddle);
+    return ramp;
 }
 
 static train train_of(const sb_case_run *run, sb_curve *heights)
@@ -76,6 +127,7 @@ static train train_of(const sb_case_run *run, sb_curve *heights)
     const sb_scene *scene = run->scene;
     const sb_wavemaker_parameters *law = &scene->wavemakers[0].law;
     train w = {.law = law,
+               .ramp = ramp_of(law),
                .linear = 2 * M_PI / sb_wave_number(law->period, law->depth, scene->fluid.gravity),
                .first = scene->duration - WINDOW * law->period,
                .last = scene->duration};
@@ -97,17 +149,21 @@ static void figure_length(const sb_case_run *run, const train *w, double limit, 
 {
     char note[SB_FIGURE_NOTE];
     sb_steady_wave wave;
+    phases p = phases_of(run, w, true);
+    const bool before = p.gauges >= ENOUGH;
+    if (!before) p = phases_of(run, w, false);
+    const char *when = before ? "before the long wave comes back" : "in the last four periods";
     const bool steady =
-        sb_steady_wave_of(w->height, w->law->period, w->law->depth + w->mean, run->scene->fluid.gravity, &wave);
+        sb_steady_wave_of(p.height, w->law->period, w->law->depth + p.mean, run->scene->fluid.gravity, &wave);
     if (steady)
         snprintf(note, sizeof note,
-                 "from the phases at all gauges; a steady wave of their mean height %.4g m and level %+.2g m, with the "
-                 "return current of a closed flume, %.3g m/s; linear %.5g m",
-                 w->height, w->mean, wave.current, w->linear);
+                 "from the phases at %zu gauges %s; a steady wave of their mean height %.4g m and level %+.2g m, with "
+                 "the return current of a closed flume, %.3g m/s; linear %.5g m",
+                 p.gauges, when, p.height, p.mean, wave.current, w->linear);
     else
-        snprintf(note, sizeof note, "from the phases at all gauges; no steady wave has a mean height of %.4g m",
-                 w->height);
-    figure(figures, "wavelength", "m", steady ? wave.length : (double)NAN, w->length, limit, note);
+        snprintf(note, sizeof note, "from the phases at %zu gauges %s; no steady wave has a mean height of %.4g m",
+                 p.gauges, when, p.height);
+    figure(figures, "wavelength", "m", steady ? wave.length : (double)NAN, p.length, limit, note);
 }
 
 /* A line over gauges within two wavelengths, as in quick forms, does not distinguish a loss over ten from scatter. */
@@ -157,7 +213,10 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
     "within 0.02 % of it in all flumes but the cnoidal one) in a closed flume, where a return "                        \
     "current\ncarries back what the waves carry forward. Gauges stand from 2 to 12 wavelengths from the paddle; the "  \
     "last four periods\ncount. Loss: from the line through the logarithms of the heights. Wavelength: from the line "  \
-    "through the phases of the first\nharmonics. No filter, no time shift. The quick form has gauges from 2 to 3.9 "   \
+    "through the phases of the first\nharmonics, over the last four periods before the long wave of the start comes "  \
+    "back from the end of the flume, at the gauges\nthat the waves have reached by then (docs/decisions/0108); with "  \
+    "fewer than five such gauges, at all in the last four periods. No\nfilter, no time shift. The quick form has "     \
+    "gauges from 2 to 3.9 "                                                                                            \
     "wavelengths, two to eight particles per\nheight, and reports the loss."
 
 /* The flume of a quick form ends after five wavelengths. */
