@@ -2,6 +2,7 @@
 #include "check.h"
 
 #include "physics/dispersion.h"
+#include "physics/steady_wave.h"
 #include "theory.h"
 #include "wave_fit.h"
 
@@ -92,13 +93,33 @@ static void cylinder_has_the_load_of_theory(void **state)
     assert_near(thin.lead, M_PI / 2, 1e-4);
 }
 
+/* Alone: the steady wave, which is exact. With an equal one: the standing wave, whose frequency does not depend on its
+   amplitude at kd = 1.058 [Tadjbakhsh and Keller 1960]. In deep water a wave that meets another one is shorter by twice
+   what its own height makes it longer [Longuet-Higgins and Phillips 1962]. */
+static void waves_that_meet_change_their_length(void **state)
+{
+    (void)state;
+    static const double depths[] = {0.5, 0.7, 1, 1.5, 3};
+    for (size_t i = 0; i < sizeof depths / sizeof *depths; i++) {
+        const double k = depths[i], period = 2 * M_PI / sqrt(g * k * tanh(k)), height = 0.01 * pow(fmin(k, 1), 2);
+        sb_steady_wave wave;
+        assert_true(sb_steady_wave_of(height, period, 1, g, &wave));
+        const double change = 2 * M_PI / wave.length / k - 1;
+        assert_near(sb_wave_fit_met(k, 0.5 * height, 0, 1) - 1, change, 0.02 * fabs(change));
+    }
+    const double low = sb_wave_fit_met(1.05, 0.01, 0.01, 1) - 1, high = sb_wave_fit_met(1.065, 0.01, 0.01, 1) - 1;
+    assert_true(low < 0 && high > 0);
+    const double slope = pow(60 * 0.0005, 2);
+    assert_near(sb_wave_fit_met(60, 0.0005, 0, 1) - 1, -slope, 0.05 * slope);
+    assert_near(sb_wave_fit_met(60, 0, 0.0005, 1) - 1, 2 * slope, 0.05 * slope);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_harmonics_are_found),
-        cmocka_unit_test(height_is_that_of_a_period),
-        cmocka_unit_test(closed_flume_has_a_return_current),
-        cmocka_unit_test(cylinder_has_the_load_of_theory),
+        cmocka_unit_test(known_harmonics_are_found),           cmocka_unit_test(height_is_that_of_a_period),
+        cmocka_unit_test(closed_flume_has_a_return_current),   cmocka_unit_test(cylinder_has_the_load_of_theory),
+        cmocka_unit_test(waves_that_meet_change_their_length),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,28 +18,39 @@ typedef struct pair {
     double complex out, back;
 } pair;
 
-/* As sb_wave_fit_split, but with phases: least squares for out exp(-i k x) + back exp(i k x), the fitted series being
-   the real part of that times exp(i omega t). */
-static pair split_phases(const sb_case_run *run, double first, double last)
+/* As sb_wave_fit_split, but with phases, and a number for each wave: least squares for out exp(-i k x) + back exp(i l
+   x), the fitted series being the real part of that times exp(i omega t). */
+static pair split_phases(const sb_case_run *run, double first, double last, double k, double l)
 {
     const sb_wavemaker_parameters *law = &run->scene->wavemakers[0].law;
     const sb_measure_settings *measure = &run->scene->measure;
-    const double k = sb_wave_number(law->period, law->depth, run->scene->fluid.gravity);
     double complex cross = 0, forward = 0, backward = 0;
     const double n = (double)measure->gauge_count;
     for (size_t g = 0; g < measure->gauge_count; g++) {
-        const double angle = k * measure->gauges[g].x;
-        const double complex turn = CMPLX(cos(angle), sin(angle));
+        const double x = measure->gauges[g].x;
+        const double complex out = cexp(CMPLX(0, k * x)), back = cexp(CMPLX(0, l * x));
         const sb_wave_fit fit =
             sb_wave_fit_of(sb_wave_fit_gauge(run, measure->gauges[g].name), law->period, first, last);
         const double complex value = fit.amplitude[0] * CMPLX(cos(fit.phase[0]), -sin(fit.phase[0]));
-        cross += turn * turn;
-        forward += turn * value;
-        backward += conj(turn) * value;
+        cross += out * back;
+        forward += out * value;
+        backward += conj(back) * value;
     }
     /* Normal equations: n out + cross back = forward; conj(cross) out + n back = backward. */
     const double determinant = n * n - creal(cross * conj(cross));
     return (pair){(n * forward - cross * backward) / determinant, (n * backward - conj(cross) * forward) / determinant};
+}
+
+/* The split with the numbers that waves of these amplitudes have when they meet. With those of linear theory a change
+   of the number looks like a reflection. */
+static pair split(const sb_case_run *run, double first, double last)
+{
+    const sb_wavemaker_parameters *law = &run->scene->wavemakers[0].law;
+    const double k = sb_wave_number(law->period, law->depth, run->scene->fluid.gravity), kd = k * law->depth;
+    const pair linear = split_phases(run, first, last, k, k);
+    const double out = cabs(linear.out), back = cabs(linear.back);
+    return split_phases(run, first, last, k * sb_wave_fit_met(kd, out, back, law->depth),
+                        k * sb_wave_fit_met(kd, back, out, law->depth));
 }
 
 static void evaluate(const sb_case_run *run, sb_figures *figures)
@@ -47,8 +58,8 @@ static void evaluate(const sb_case_run *run, sb_figures *figures)
     const early *when = run->of->what;
     const sb_wavemaker_parameters *law = &run->scene->wavemakers[0].law;
     const double end = run->scene->duration;
-    const pair before = split_phases(run, when->first * law->period, when->last * law->period);
-    const pair after = split_phases(run, end - LATE * law->period, end);
+    const pair before = split(run, when->first * law->period, when->last * law->period);
+    const pair after = split(run, end - LATE * law->period, end);
     const double made = cabs(before.out);
     sb_figure_below(figures, "reflected by the paddle", "%", 100 * cabs(after.out - before.out) / cabs(after.back), 4,
                     "change of the waves that leave the paddle from periods %.3g to %.3g to the last %d, over those "
@@ -71,7 +82,8 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
     "Reference: none is needed. A paddle makes regular waves towards a wall four wavelengths away. Four gauges split " \
     "the first\nharmonic by least squares, with phases: what leaves the paddle while less than 1 % has come back by "  \
     "linear theory, and in the "                                                                                       \
-    "last eight periods.\nThe difference is what the paddle reflects. The other column is the same paddle with "       \
+    "last eight periods,\nwith the lengths that waves have when they meet (third order, docs/decisions/0109). The "    \
+    "difference is what the paddle reflects. The other column is the same paddle with "                                \
     "`absorb: false`; its waves need not be\nregular. The full form runs for 100 periods."
 
 /* from, to: periods of `early`; shorter: duration of the quick form and of the paddle without absorption, s. */

@@ -127,3 +127,13 @@ double sb_wave_fit_turn(double angle, double from)
 {
     return remainder(angle - from, 2 * M_PI);
 }
+
+double sb_wave_fit_met(double kd, double own, double other, double depth)
+{
+    /* Parts of the frequency at a given number, over (k a)^2. */
+    const double t = tanh(kd), w = sqrt(t), group = 0.5 * (1 + 2 * kd / sinh(2 * kd));
+    const double stokes = (9 * pow(t, 4) - 10 * t * t + 9) / (16 * pow(t, 4)) - 1 / (2 * kd * t);
+    const double standing = (9 * pow(w, -7) - 12 * pow(w, -3) - 3 * w - 2 * pow(w, 5)) / (16 * w);
+    const double k = kd / depth, change = pow(k * own, 2) * stokes + pow(k * other, 2) * (standing - stokes);
+    return 1 - change / group;
+}

@@ -36,6 +36,11 @@ sb_split sb_wave_fit_split(const sb_case_run *run, const char *prefix, double pe
 /* Wave number of the law's regular waves in a closed flume, 1/m; of linear theory if there are no such steady waves. */
 double sb_wave_fit_number(const sb_wavemaker_parameters *law);
 
+/* Wave number over that of linear theory of waves of the amplitude own that meet waves of the amplitude other and the
+   same period, to third order in a closed flume. kd: by linear theory. Own part: Stokes' wave without transport; sum of
+   both parts: the standing wave [Tadjbakhsh and Keller 1960, J. Fluid Mech. 8]. */
+double sb_wave_fit_met(double kd, double own, double other, double depth);
+
 /* The gauge's elevation above the still level, or an empty curve if the scene has no such gauge. */
 sb_curve *sb_wave_fit_gauge(const sb_case_run *run, const char *name);
 
