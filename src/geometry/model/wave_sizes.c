@@ -53,41 +53,38 @@ static sb_status warn_of_lengths(const sum *of, const char *key, sb_model *model
         key, of->shortest, of->least, of->least / model->spacing, more, LENGTH_MIN);
 }
 
-/* H L^2/d^3 of waves of that height, and of the length of the highest of them. */
 static double ursell_of(double height, double length, double depth)
 {
     return height * length * length / (depth * depth * depth);
 }
 
-static sb_status warn_of_long_waves(const sum *of, const char *key, double depth, sb_model *model, sb_error *error)
+/* Linear waves that are too long for their theory. come: the waves that it does not have. */
+static sb_status check_ursell(const char *key, double ursell, const char *come, sb_model *model, sb_error *error)
 {
-    double most = 0;
-    for (int i = 0; i < 2; i++) {
-        const sb_sum_height *way = &of->way[i];
-        if (way->highest > 0) most = fmax(most, ursell_of(sb_sum_height_of(way), 2 * M_PI / way->number, depth));
-    }
-    if (most < SB_URSELL_LIMIT) return SB_OK;
-    return sb_model_warn(
-        model, error,
-        "%s: the waves are linear, but H L^2/d^3 = %.3g is above %.3g: free long waves and free waves of twice the "
-        "frequency will come with them; expected lower or shorter waves, or deeper water",
-        key, most, SB_URSELL_LIMIT);
+    if (ursell < SB_URSELL_LIMIT) return SB_OK;
+    return sb_model_warn(model, error,
+                         "%s: the waves are linear, but H L^2/d^3 = %.3g is above %.3g: %s will come with them; "
+                         "expected lower or shorter waves, or deeper water",
+                         key, ursell, SB_URSELL_LIMIT, come);
 }
 
 static sb_status check_sum(const sum *of, const char *key, double depth, sb_model *model, sb_error *error)
 {
+    double most = 0;
     const sb_status status = warn_of_lengths(of, key, model, error);
-    return status == SB_OK ? warn_of_long_waves(of, key, depth, model, error) : status;
+    if (status != SB_OK) return status;
+    for (int i = 0; i < 2; i++) {
+        const sb_sum_height *way = &of->way[i];
+        if (way->highest > 0) most = fmax(most, ursell_of(sb_sum_height_of(way), 2 * M_PI / way->number, depth));
+    }
+    return check_ursell(key, most, "free long waves and free waves of twice the frequency", model, error);
 }
 
 static sb_status check_linear(const sb_initial_wave *wave, sb_model *model, sb_error *error)
 {
-    const double ursell = ursell_of(wave->height, wave->wavelength, wave->depth);
-    if (wave->kind != SB_INITIAL_REGULAR || wave->stokes.order != 1 || ursell < SB_URSELL_LIMIT) return SB_OK;
-    return sb_model_warn(model, error,
-                         "water.wave.order: the waves are linear, but H L^2/d^3 = %.3g is above %.3g: free waves of "
-                         "twice the frequency will come with them; expected lower or shorter waves, or deeper water",
-                         ursell, SB_URSELL_LIMIT);
+    if (wave->kind != SB_INITIAL_REGULAR || wave->stokes.order != 1) return SB_OK;
+    return check_ursell("water.wave.order", ursell_of(wave->height, wave->wavelength, wave->depth),
+                        "free waves of twice the frequency", model, error);
 }
 
 static sb_status check_initial(const sb_scene *scene, sb_model *model, sb_error *error)
