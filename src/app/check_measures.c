@@ -8,14 +8,11 @@
 
 #include <stdio.h>
 
-/* Rows that the shortest period of the harmonics of measure.waves needs. */
-enum { ROWS = 2 };
-
 static void warn_of_waves(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
     char text[400];
     const sb_wave_settings *waves = &scene->measure.waves;
-    const double least = SB_WAVE_HARMONICS * ROWS * scene->measure.interval;
+    const int harmonics = sb_wave_table_harmonics(scene);
     if (!waves->present) return;
     if (scene->measure.gauge_count == 0)
         visit(context, "measure.waves: there are no gauges, so that waves.csv has no row; expected measure.gauges, or "
@@ -36,12 +33,13 @@ static void warn_of_waves(const sb_scene *scene, sb_warning_visit *visit, void *
                  waves->period, left);
         visit(context, text);
     }
-    if (waves->period > 0 && waves->period < least * (1 - 1e-9)) {
+    if (waves->period > 0 && harmonics < SB_WAVE_HARMONICS) {
         snprintf(text, sizeof text,
-                 "measure.waves.period: the last of the five harmonics of %g s has less than two rows of "
-                 "measure.interval %g s: it is not measured; expected a period of %.3g s or more, or an interval of "
-                 "%.3g s or less",
-                 waves->period, scene->measure.interval, least, waves->period / (SB_WAVE_HARMONICS * ROWS));
+                 "measure.waves.period: of the five harmonics of %g s only %d have more than two rows of "
+                 "measure.interval %g s: the others are not measured; expected a period above %.3g s, or an interval "
+                 "below %.3g s",
+                 waves->period, harmonics, scene->measure.interval, 2 * SB_WAVE_HARMONICS * scene->measure.interval,
+                 waves->period / (2 * SB_WAVE_HARMONICS));
         visit(context, text);
     }
 }

@@ -191,6 +191,24 @@ static sb_grid_facts_beside grid_facts(const sb_offshore *water)
                                   sb_grid_volume_of(water)};
 }
 
+/* Heights, periods and harmonics of a gauge that falls dry are those of its rows with water. */
+static void warn_of_dry_gauges(run *r, const sb_gauge_waves *waves)
+{
+    const sb_measure_settings *m = &r->scene->measure;
+    size_t count = 0, worst = 0;
+    for (size_t g = 0; g < m->gauge_count; g++) {
+        if (waves[g].rows == 0 || waves[g].dry == 0) continue;
+        if (count == 0 || waves[g].dry > waves[worst].dry) worst = g;
+        count++;
+    }
+    if (count == 0) return;
+    char others[64] = "";
+    if (count > 1) snprintf(others, sizeof others, "; likewise %zu other gauges in fewer", count - 1);
+    sb_run_warn(r,
+                "waves.csv: gauge \"%.63s\" had no water in %zu of %zu rows, and its figures are those of the others%s",
+                m->gauges[worst].name, waves[worst].dry, waves[worst].dry + waves[worst].rows, others);
+}
+
 static void write_summary(run *r, sb_status *status, sb_error *error)
 {
     char path[SB_PATH_MAX];
@@ -243,6 +261,7 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
     if (r->measure && r->scene->measure.waves.present &&
         sb_wave_table_write(r->directory, r->scene, &waves, &reason) != SB_OK)
         sb_run_warn(r, "waves.csv: %s", reason.text);
+    if (waves) warn_of_dry_gauges(r, waves);
     summary.waves = waves;
     sb_overtopping_rate *rates = NULL;
     if (r->measure && sb_overtopping_wanted(r->scene) &&

@@ -12,10 +12,15 @@ enum { SB_WAVE_HARMONICS = 5 };
 
 /* The waves at one gauge since measure.waves.start. */
 typedef struct sb_gauge_waves {
-    double from, to; /* s, of the rows that are used; NaN: none */
+    double from, to;  /* s, of the rows that are used; NaN: none */
+    size_t rows, dry; /* numbers of rows that are used, and of those without water */
     sb_wave_heights heights;
     double harmonic[SB_WAVE_HARMONICS]; /* m, amplitudes at period/n; NaN: not known */
 } sb_gauge_waves;
+
+/* Number of harmonics that waves.csv has: at most SB_WAVE_HARMONICS, fewer if measure.interval has not more than two
+   rows in their period; 0 without measure.waves.period. */
+int sb_wave_table_harmonics(const sb_scene *scene);
 
 /* Finds the waves from gauges.csv of the run's directory, and writes waves.csv. *waves: one per gauge, which the caller
    frees with sb_free. */

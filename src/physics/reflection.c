@@ -2,7 +2,15 @@
 #include "physics/reflection.h"
 
 #include <complex.h>
+#include <limits.h>
 #include <math.h>
+
+/* Two samples per period are 0 of a sine; numbers of a scene are rounded. */
+int sb_harmonics_most(double period, double interval)
+{
+    const double samples = 0.5 * period / interval * (1 - 1e-9);
+    return samples < INT_MAX ? (int)ceil(samples) - 1 : INT_MAX;
+}
 
 /* The sums are the upper triangle of the normal matrix, row by row in full rows, then its right-hand side. */
 static size_t terms_of(int harmonics)
@@ -35,14 +43,14 @@ void sb_harmonics_add(double *sums, int harmonics, double omega, double t, doubl
 }
 
 /* Cholesky's factor U of the matrix, in place. A pivot is the part of a function that the earlier ones do not explain.
- */
+   It is compared with the number of samples: a sine may be 0 at all of them but for rounding. */
 static bool factorise(double *a, size_t n)
 {
+    const double samples = a[0];
     for (size_t i = 0; i < n; i++) {
-        const double whole = a[i * n + i];
-        double pivot = whole;
+        double pivot = a[i * n + i];
         for (size_t k = 0; k < i; k++) pivot -= a[k * n + i] * a[k * n + i];
-        if (!(pivot > 1e-6 * whole)) return false;
+        if (!(pivot > 1e-6 * samples)) return false;
         a[i * n + i] = sqrt(pivot);
         for (size_t j = i + 1; j < n; j++) {
             double sum = a[i * n + j];

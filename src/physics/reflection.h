@@ -8,6 +8,9 @@
 /* Periods of samples without which harmonics cannot be distinguished; the last sample of a period may be missing. */
 static const double SB_LEAST_PERIODS = 0.9;
 
+/* Number of harmonics of a period, s, that have more than two samples at this interval, s, in theirs. */
+int sb_harmonics_most(double period, double interval);
+
 /* Least-squares fit of mean + sum over n = 1..harmonics of A_n cos(n w t) + B_n sin(n w t) to samples that are added
    one by one. `sums` has sb_harmonics_size(harmonics) doubles, which are zero at first. The samples may have gaps, and
    need not cover whole periods. */

@@ -1,4 +1,5 @@
 #include "physics/dispersion.h"
+#include "physics/reflection.h"
 #include "scene/reader.h"
 
 #include <math.h>
@@ -112,10 +113,10 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     if (set->window < set->period)
         return sb_reader_fail(reader, map, "window", "%g s is shorter than the period, expected at least %g s",
                               set->window, set->period);
-    if (!(2 * interval * set->harmonics < set->period))
+    if (set->harmonics > sb_harmonics_most(set->period, interval))
         return sb_reader_fail(
             reader, map, "harmonics",
-            "the shortest period of %g s has less than two rows of measure.interval %g s, expected fewer "
+            "the shortest period of %g s has two rows of measure.interval %g s or fewer, expected fewer "
             "harmonics or a shorter interval",
             set->period / set->harmonics, interval);
     if (set->bound && set->harmonics < 2)

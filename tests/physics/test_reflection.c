@@ -185,6 +185,31 @@ static void singular_places_are_detected(void **state)
     assert_true(!sb_harmonics_solve((double[64]){0}, 3, scratch, a, b));
 }
 
+/* With two samples per period the sine of a harmonic is 0 at all of them but for rounding. */
+static void harmonics_need_more_than_two_samples(void **state)
+{
+    (void)state;
+    enum { MOST = 5 };
+    const double rows[] = {1, 2, 3, 9.99, 10, 10.01, 11};
+    const int most[] = {0, 0, 1, 4, 4, 5, 5};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        assert_int_equal(sb_harmonics_most(rows[i] * 0.1, 0.1), most[i]);
+    assert_int_equal(sb_harmonics_most(0.9, 0.15), 2); /* 0.9/0.15 is rounded up to 6 */
+    for (int harmonics = MOST; harmonics >= MOST - 1; harmonics--) {
+        double sums[2 * MOST * 2 * MOST + 6 * MOST + 2] = {0}, scratch[sizeof sums / sizeof *sums], a[MOST], b[MOST];
+        assert_true(sb_harmonics_size(harmonics) <= sizeof sums / sizeof *sums);
+        for (int i = 0; i < 60; i++) {
+            const double t = 5 + 0.1 * i;
+            sb_harmonics_add(sums, harmonics, 2 * M_PI, t, 0.1 * cos(2 * M_PI * t) + 0.01 * sin(8 * M_PI * t));
+        }
+        const bool solved = sb_harmonics_solve(sums, harmonics, scratch, a, b);
+        assert_true(solved == (harmonics < MOST));
+        if (!solved) continue;
+        assert_near(a[0], 0.1, 1e-12);
+        assert_near(b[3], 0.01, 1e-12);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -194,6 +219,7 @@ int main(void)
         cmocka_unit_test(free_and_bound_waves_are_told_apart),
         cmocka_unit_test(separation_of_four_waves_bounds_errors),
         cmocka_unit_test(singular_places_are_detected),
+        cmocka_unit_test(harmonics_need_more_than_two_samples),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
