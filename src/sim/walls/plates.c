@@ -50,10 +50,16 @@ static void add(const sb_moving_body *moving, sb_vec3 at, double width, bool rep
     }
 }
 
-/* Waves across the basin at the start are none of the still water's: all plates have the row's mean depth there. */
-static void note_still(sb_absorber *a, double mean)
+/* A sea without a wave starts at rest, over any bed. Other water may stand higher before one plate than before another:
+   all plates then have the row's mean depth. */
+static bool starts_at_rest(const sb_scene *scene)
 {
-    if (!a->known) a->still = mean;
+    return scene->sea.present && scene->box_count == 0 && scene->wave.kind == SB_INITIAL_NONE;
+}
+
+static void note_still(sb_absorber *a, double depth)
+{
+    if (!a->known) a->still = depth;
     a->known = true;
 }
 
@@ -85,7 +91,8 @@ int sb_plates_measure(sb_sim *sim, sb_moving_body *moving)
             moving[k].absorber->depth = depth;
             mean += depth / (double)count;
         }
-        for (size_t k = 0; k < count; k++) note_still(moving[k].absorber, mean);
+        const bool rest = starts_at_rest(sim->scene);
+        for (size_t k = 0; k < count; k++) note_still(moving[k].absorber, rest ? moving[k].absorber->depth : mean);
     }
     sb_free(sums);
     return enough ? 0 : -1;
