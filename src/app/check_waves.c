@@ -1,5 +1,6 @@
 #include "app/check_waves.h"
 
+#include "base/per_cent.h"
 #include "physics/dispersion.h"
 #include "physics/paddle_way.h"
 #include "sim/sim.h"
@@ -72,14 +73,6 @@ static void print_parts(const sb_scene *scene, const sb_wavemaker_use *maker, do
            (row.to - row.from) / (double)row.count / scene->resolution);
 }
 
-/* Less than a hundredth of a per cent is rounding, or of no interest. */
-static const char *per_cent(double share, char text[32])
-{
-    if (100 * share < 0.01) return "below 0.01 %";
-    snprintf(text, 32, "%.*g %%", share < 0.995 ? 2 : 3, 100 * share);
-    return text;
-}
-
 static void print_absorption(const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
 {
     const reflection predicted = paddle_reflection(scene, maker, paddle);
@@ -87,9 +80,9 @@ static void print_absorption(const sb_scene *scene, const sb_wavemaker_use *make
     const sb_wave_facts *facts = paddle->kind->facts(paddle->state);
     char text[32], all[32], more[64] = "";
     if (!facts->repeats && facts->count > 0)
-        snprintf(more, sizeof more, ", of all its waves %s", per_cent(predicted.all, all));
+        snprintf(more, sizeof more, ", of all its waves %s", sb_per_cent(predicted.all, all));
     printf("    absorbs within %.3g m of its law; predicted reflection at %.4g s %s%s; forgets levels in %.3g s\n",
-           maker->law.reach, facts->period, per_cent(predicted.peak, text), more, 1 / facts->slow);
+           maker->law.reach, facts->period, sb_per_cent(predicted.peak, text), more, 1 / facts->slow);
 }
 
 static void print_train(void *context, const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
@@ -187,7 +180,7 @@ void sb_check_waves_text(const sb_scene *scene, const sb_model *model)
                sponge->name, sponge->length, sponge->length / wavelength_of(scene, sponge),
                wavelength_of(scene, sponge), viscous ? "viscosity" : "strength",
                viscous ? viscosity_of(scene, model, sponge) : sponge->strength, viscous ? "m^2/s" : "1/s",
-               per_cent(reflection_of(scene, model, sponge), text));
+               sb_per_cent(reflection_of(scene, model, sponge), text));
     }
 }
 

@@ -1,6 +1,7 @@
 /* Warns of sponges that begin outside of the domain, of those that overlap, and of those that reflect. */
 #include "app/check_zones.h"
 
+#include "base/per_cent.h"
 #include "physics/sponge.h"
 
 #include <math.h>
@@ -58,21 +59,31 @@ static bool run_to(const sb_wavemaker_use *maker, const sb_sponge *sponge)
     return (sponge->side % 2 ? along : -along) > 0.7;
 }
 
+/* Period of the waves of a wave maker, at the peak of sums, s; 0: it makes no wave train. */
+static double period_of(const sb_wavemaker_use *maker)
+{
+    sb_paddle paddle = {0};
+    if (!maker->law.kind->facts || sb_paddle_create(&maker->law, &paddle, NULL) != SB_OK) return 0;
+    const double period = maker->law.kind->facts(paddle.state)->period;
+    sb_paddle_destroy(&paddle);
+    return period;
+}
+
 /* A sponge made for other waves than those that run to it, or too short or too strong for them. */
 static void warn_of_reflection(const sb_scene *scene, const sb_sponge *sponge, sb_warning_visit *visit, void *context)
 {
     static const double most = 0.2;
-    char text[400];
+    char text[400], reflected[32];
     for (size_t w = 0; w < scene->wavemaker_count; w++) {
-        const double period = scene->wavemakers[w].law.period;
+        const double period = period_of(&scene->wavemakers[w]);
         if (sponge->kind != SB_SPONGE_DAMPING || !(period > 0) || !run_to(&scene->wavemakers[w], sponge)) continue;
         const double share = sb_sponge_reflection(sponge->profile, sponge->strength, 2 * M_PI / period, sponge->depth,
                                                   scene->fluid.gravity, sponge->length);
         if (!(share > most)) continue;
         snprintf(text, sizeof text,
-                 "sponge \"%s\": by linear theory it reflects %.2g %% of waves of %.4g s, those of \"%s\"; expected a "
+                 "sponge \"%s\": by linear theory it reflects %s of waves of %.4g s, those of \"%s\"; expected a "
                  "longer sponge, that period, or the strength that follows from it",
-                 sponge->name, 100 * share, period, scene->wavemakers[w].name);
+                 sponge->name, sb_per_cent(share, reflected), period, scene->wavemakers[w].name);
         visit(context, text);
     }
 }

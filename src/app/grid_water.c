@@ -72,9 +72,14 @@ void sb_grid_wave_warnings(const sb_scene *scene, sb_warning_visit *visit, void 
 void sb_grid_water_warnings(const sb_scene *scene, const sb_grid_facts *facts, const sb_offshore_told_list *told,
                             sb_warning_visit *visit, void *context)
 {
-    const bool ignored[] = {scene->measure.plane_count > 0, scene->measure.map.present,
-                            scene->render.interval > 0 && scene->render.camera_count > 0, scene->stream.enabled};
-    static const char *const names[] = {"measure.planes", "measure.map", "render", "stream"};
+    const bool ignored[] = {scene->measure.plane_count > 0,
+                            scene->measure.map.present,
+                            scene->measure.waves.present,
+                            scene->measure.reflection_count > 0,
+                            scene->render.interval > 0 && scene->render.camera_count > 0,
+                            scene->stream.enabled};
+    static const char *const names[] = {"measure.planes",      "measure.map", "measure.waves",
+                                        "measure.reflections", "render",      "stream"};
     char text[400];
     for (size_t k = 0; k < sizeof ignored / sizeof *ignored; k++) {
         if (!ignored[k]) continue;

@@ -1,6 +1,7 @@
 #include "app/wave_warnings.h"
 
 #include "base/memory.h"
+#include "base/per_cent.h"
 #include "physics/dispersion.h"
 #include "physics/regular_wave.h"
 #include "physics/wavemaker.h"
@@ -54,23 +55,23 @@ static double earliest_focus(const group *g)
 
 static void warn_of_focus(const sb_wavemaker_use *maker, const group *g, sb_warning_visit *visit, void *context)
 {
-    char text[500];
+    char text[500], part[32];
     const double share = share_in_time(g, maker->law.focus);
     if (share >= ENOUGH) return;
     const group endless = without_end(g);
     if (share_in_time(&endless, maker->law.focus) >= ENOUGH) {
         snprintf(
             text, sizeof text,
-            "wave maker \"%s\": its motion ends after %g s, and of the waves that focus at %g s only %.2g %% of the "
-            "crest have left by then; expected an earlier focus, or a motion that lasts longer",
-            maker->name, g->lasts, maker->law.focus, 100 * share);
+            "wave maker \"%s\": its motion ends after %g s: by then waves with %s of the crest that is to focus at "
+            "%g s have left; expected an earlier focus, or a motion that lasts longer",
+            maker->name, g->lasts, sb_per_cent(share, part), maker->law.focus);
         visit(context, text);
         return;
     }
     snprintf(text, sizeof text,
-             "wave maker \"%s\": its focus at %g s is too early: by their group speeds waves with %.2g %% of the crest "
+             "wave maker \"%s\": its focus at %g s is too early: by their group speeds waves with %s of the crest "
              "come %g m far by then; expected a focus of at least %.3g s, or a shorter distance",
-             maker->name, maker->law.focus, 100 * share, maker->law.distance, earliest_focus(&endless));
+             maker->name, maker->law.focus, sb_per_cent(share, part), maker->law.distance, earliest_focus(&endless));
     visit(context, text);
 }
 
@@ -110,6 +111,23 @@ static void warn_of_long_waves(const sb_wavemaker_use *maker, const sb_paddle *p
              "wave maker \"%s\": its waves are linear, but H L^2/d^3 = %.3g is above %.3g: free long waves and free "
              "waves of twice the frequency will come with them; expected lower or shorter waves, or deeper water",
              maker->name, facts->ursell, SB_URSELL_LIMIT);
+    visit(context, text);
+}
+
+/* Cnoidal theory is one of long waves: its short ones are several per cent too short. */
+static void warn_of_short_waves(const sb_wavemaker_use *maker, sb_warning_visit *visit, void *context)
+{
+    char text[400];
+    const sb_wavemaker_parameters *law = &maker->law;
+    sb_regular_wave wave;
+    if (!(law->kind->needs & SB_WM_THEORY) || law->theory != SB_WAVE_CNOIDAL) return;
+    if (sb_regular_wave_create(law->theory, law->height, law->period, law->depth, law->gravity, &wave, NULL) != SB_OK)
+        return;
+    if (wave.ursell >= SB_URSELL_LIMIT) return;
+    snprintf(text, sizeof text,
+             "wave maker \"%s\": theory cnoidal is for long waves, and H L^2/d^3 of linear theory is %.3g, below %.3g: "
+             "the waves will differ from the theory in length and form; expected theory: auto or second-order",
+             maker->name, wave.ursell, SB_URSELL_LIMIT);
     visit(context, text);
 }
 
@@ -171,7 +189,7 @@ static void warn_of_way(const sb_wavemaker_use *maker, const sb_paddle *paddle, 
 {
     enum { SAMPLES = 400 };
     static const double lost = 0.02;
-    char text[400];
+    char text[400], part[32];
     const sb_wavemaker_parameters *law = &maker->law;
     const sb_wave_facts *facts = law->kind->facts(paddle->state);
     const double omega = 2 * M_PI / facts->period, number = sb_wave_number(facts->period, law->depth, law->gravity);
@@ -186,10 +204,10 @@ static void warn_of_way(const sb_wavemaker_use *maker, const sb_paddle *paddle, 
     if (!(early > lost * all)) return;
     snprintf(
         text, sizeof text,
-        "wave maker \"%s\": %.2g %% of the energy of its file is in the first %.3g s, and waves of %.3g s take that "
+        "wave maker \"%s\": %s of the energy of its file is in the first %.3g s, and waves of %.3g s take that "
         "long for the %g m: they do not come; expected still water before the first waves of the file, or a shorter "
         "distance",
-        maker->name, 100 * early / all, way, facts->period, law->distance);
+        maker->name, sb_per_cent(early / all, part), way, facts->period, law->distance);
     visit(context, text);
 }
 
@@ -205,6 +223,7 @@ sb_status sb_wave_warnings(const sb_scene *scene, sb_warning_visit *visit, void 
         status = sb_paddle_create(&maker->law, &paddle, error);
         if (status == SB_OK) warn_of_ramp(scene, maker, paddle.duration, visit, context);
         if (status == SB_OK) warn_of_long_waves(maker, &paddle, visit, context);
+        if (status == SB_OK) warn_of_short_waves(maker, visit, context);
         if (status == SB_OK && needs & SB_WM_FOCUS) warn_of_late_focus(scene, maker, visit, context);
         if (status == SB_OK && needs & SB_WM_FOCUS) status = visit_group(maker, &paddle, visit, context, error);
         if (status == SB_OK && needs & SB_WM_FILE && needs & SB_WM_DISTANCE)

@@ -40,9 +40,10 @@ sb_status sb_cnoidal_of_period(double height, double period, double depth, doubl
     double low = high;
     while (low > -LOGIT_MAX && surplus(height, period, depth, gravity, low) > 0) high = low--;
     if (!(surplus(height, period, depth, gravity, low) <= 0))
-        return sb_fail(error, SB_BAD_INPUT,
-                       "no cnoidal wave of %g m on %g m has a period of %g s, expected a longer period or a lower wave",
-                       height, depth, period);
+        return sb_fail(
+            error, SB_BAD_INPUT,
+            "no cnoidal wave of %g m on %g m has a period of %g s, expected a longer period or another theory", height,
+            depth, period);
     for (int i = 0; i < 100; i++) {
         const double middle = 0.5 * (low + high);
         if (surplus(height, period, depth, gravity, middle) > 0)

@@ -32,10 +32,13 @@ static void residuals(const double x[UNKNOWNS], given g, double out[UNKNOWNS])
         const double z = x[LEVEL + i];
         double psi = -x[SPEED] * z, u = -x[SPEED], w = 0;
         for (int j = 1; j <= POINTS; j++) {
-            const double angle = M_PI * i * j / POINTS, b = x[TERM + j - 1] / cosh(j * k);
-            psi += b * sinh(j * k * z) * cos(angle);
-            u += j * k * b * cosh(j * k * z) * cos(angle);
-            w += j * k * b * sinh(j * k * z) * sin(angle);
+            const double angle = M_PI * i * j / POINTS;
+            /* Exponentials of both signs over cosh(jk): the functions alone overflow in deep water. */
+            const double grows = exp(j * k * (z - 1)), falls = exp(-j * k * (z + 1));
+            const double b = x[TERM + j - 1] / (1 + exp(-2 * j * k));
+            psi += b * (grows - falls) * cos(angle);
+            u += j * k * b * (grows + falls) * cos(angle);
+            w += j * k * b * (grows - falls) * sin(angle);
         }
         out[i] = psi + x[DISCHARGE];
         out[POINTS + 1 + i] = 0.5 * (u * u + w * w) + z - x[HEAD];

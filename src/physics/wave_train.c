@@ -125,6 +125,7 @@ void sb_wave_train_complete(sb_wave_train *train)
     sb_wave_facts *facts = &train->facts;
     facts->ramp = train->ramp = train->ramp < 0 ? 2 * facts->period : train->ramp;
     train->origin = train->ramp > 0 ? 0 : full_displacement(train, 0);
+    if (!(facts->crest > 0)) facts->crest = 0.5 * facts->height;
     facts->slow = 2 * M_PI / facts->period / SLOW;
     facts->depth = train->depth;
     facts->number =

@@ -64,6 +64,7 @@ typedef struct sb_wave_facts {
     const char *theory;            /* static text */
     const char *height_name;       /* "height", "significant height", ...: static text */
     double height, period, depth;  /* m; s, at the peak of a spectrum; m */
+    double crest;                  /* m above the still level; of sums half of the height; 0: no waves */
     double length, number, ursell; /* m; 1/m; H L^2/d^3 */
     double ramp;                   /* s */
     double slow;                   /* 1/s, rate at which an absorbing paddle forgets levels and returns */

@@ -4,6 +4,7 @@
 #include "physics/wavemaker_goring.h"
 
 #include "base/memory.h"
+#include "physics/breaking.h"
 #include "physics/wavemaker.h"
 
 #include <math.h>
@@ -48,11 +49,12 @@ double sb_goring_paddle(const sb_goring *law, double t, double *speed)
 static sb_status make(const sb_wavemaker_parameters *parameters, bool rayleigh, void **state, sb_error *error)
 {
     double ratio = parameters->height / parameters->depth;
-    if (!(ratio <= 1))
+    if (!(ratio <= SB_SOLITARY_HIGHEST * (1 + 1e-9)))
         return sb_fail(error, SB_BAD_INPUT,
-                       "wave height %g m on depth %g m: a solitary wave breaks beyond 0.78 of its "
-                       "depth, expected a height of at most the depth",
-                       parameters->height, parameters->depth);
+                       "wave height %g m on depth %g m: no solitary wave is higher than %g of its depth, expected at "
+                       "most %.4g m",
+                       parameters->height, parameters->depth, SB_SOLITARY_HIGHEST,
+                       SB_SOLITARY_HIGHEST * parameters->depth);
     if (!(parameters->gravity > 0))
         return sb_fail(error, SB_BAD_INPUT, "gravity %g m/s^2: expected more than 0", parameters->gravity);
     sb_goring *law = sb_alloc(1, sizeof *law);

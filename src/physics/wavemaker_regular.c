@@ -46,6 +46,7 @@ static sb_status create(const sb_wavemaker_parameters *parameters, void **state,
     train->facts = (sb_wave_facts){.theory = theory_names[wave.order],
                                    .height_name = "height",
                                    .height = wave.height,
+                                   .crest = sb_regular_wave_crest(&wave),
                                    .period = wave.period,
                                    .length = wave.length};
     sb_wave_train_complete(train);

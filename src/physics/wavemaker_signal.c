@@ -6,6 +6,7 @@
 
 #include <complex.h>
 #include <math.h>
+#include <stdlib.h>
 
 /* The waves of a train together, by the rule of irregular waves. *height: of the sum, m. */
 static sb_status check_sum(const sb_wavemaker_parameters *p, const sb_wave_train *train, double *height,
@@ -102,6 +103,13 @@ typedef struct series {
 
 enum { LEAST_ROWS = 8, MOST_ROWS = 20000 };
 
+static int compare_steps(const void *a, const void *b)
+{
+    const double one = *(const double *)a, other = *(const double *)b;
+    return (one > other) - (one < other);
+}
+
+/* The usual step is the median, which a gap of the file does not change. */
 static sb_status check_times(const char *path, series *s, sb_error *error)
 {
     for (size_t i = 1; i < s->rows; i++)
@@ -110,12 +118,18 @@ static sb_status check_times(const char *path, series *s, sb_error *error)
                            "%.500s: row %zu: time %g s does not follow %g s, expected increasing times", path, i + 1,
                            s->values[2 * i], s->values[2 * i - 2]);
     s->step = (s->values[2 * (s->rows - 1)] - s->values[0]) / (double)(s->rows - 1);
+    double *steps = sb_alloc(s->rows - 1, sizeof *steps);
+    if (!steps) return sb_fail_memory(error, path);
+    for (size_t i = 1; i < s->rows; i++) steps[i - 1] = s->values[2 * i] - s->values[2 * i - 2];
+    qsort(steps, s->rows - 1, sizeof *steps, compare_steps);
+    const double usual = steps[(s->rows - 1) / 2];
+    sb_free(steps);
     for (size_t i = 1; i < s->rows; i++) {
         const double step = s->values[2 * i] - s->values[2 * i - 2];
-        if (fabs(step - s->step) > 0.02 * s->step)
+        if (fabs(step - usual) > 0.02 * usual)
             return sb_fail(error, SB_BAD_INPUT,
-                           "%.500s: row %zu follows after %g s, expected equal steps of about %g s", path, i + 1, step,
-                           s->step);
+                           "%.500s: row %zu, of %g s, follows after %g s, expected equal steps: most are of %g s", path,
+                           i + 1, s->values[2 * i], step, usual);
     }
     return SB_OK;
 }
@@ -183,8 +197,7 @@ static sb_status create_signal(const sb_wavemaker_parameters *p, void **state, s
     if (train) fill_parts(&s, p->distance, train);
     if (status == SB_OK && !(train->facts.height > 0))
         status = sb_fail(error, SB_BAD_INPUT, "%.500s: the surface is constant, expected waves", p->file);
-    double height;
-    if (status == SB_OK) status = check_sum(p, train, &height, error);
+    if (status == SB_OK) status = check_sum(p, train, &train->facts.height, error);
     const double length = s.step * (double)s.rows;
     sb_free(s.turn);
     sb_free(s.values);

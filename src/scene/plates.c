@@ -7,10 +7,10 @@
 /* In spacings: narrower plates would have too few particles in front of them to read the surface. */
 static const double NARROWEST = 3;
 
-/* In spacings: height of the rows of a flap. */
-static const double ROW = 2;
-
 enum { PLATES_MAX = 100 };
+
+/* In spacings: least height of the rows of a flap, of which there are at most PLATES_MAX. */
+static const double ROW = 2;
 
 const sb_body *sb_plates_body(const sb_scene *scene, const sb_wavemaker_use *use)
 {
@@ -32,7 +32,7 @@ size_t sb_scene_plates(const sb_scene *scene, const sb_wavemaker_use *use, sb_pl
     if (flap) row->from = scene->sea.level - use->law.depth;
     const double width = flap ? ROW * scene->resolution : use->plates.width;
     const double extent = row->to - row->from;
-    const double most = flap ? 1e6 : fmin(floor(extent / (NARROWEST * scene->resolution) + 1e-9), 1e6);
+    const double most = flap ? (double)PLATES_MAX : fmin(floor(extent / (NARROWEST * scene->resolution) + 1e-9), 1e6);
     row->count = (size_t)fmax(fmin(round(extent / width), most), 1);
     return row->count;
 }
@@ -68,7 +68,8 @@ static sb_status check_flap(sb_reader *reader, const sb_yaml *map, const sb_wave
         return sb_reader_fail(
             reader, map, "motion",
             "a flap turns about the bed, `depth` below water.level, expected water.level, or a piston");
-    if (sb_scene_plates(scene, use, &row) > PLATES_MAX || !(row.from < row.to) || !(row.to > scene->sea.level) ||
+    (void)sb_scene_plates(scene, use, &row);
+    if (!(row.from < row.to) || !(row.to > scene->sea.level) ||
         !(body->min.z + body->translate.z < row.from + 0.5 * scene->resolution))
         return sb_reader_fail(
             reader, map, "motion",

@@ -139,11 +139,11 @@ static sb_status finish_eurotop(sb_reader *reader, const sb_yaml *map, sb_flow_p
     if (e->slope > 0 && e->slope <= SB_EUROTOP_STEEP && !(e->period > 0))
         return sb_reader_fail(reader, map, "eurotop",
                               "period is missing, expected T_m-1,0 of the waves in s for a slope up to 1:2");
-    if (!(e->slope > 0) && e->period > 0)
+    if (!(e->slope > 0 && e->slope <= SB_EUROTOP_STEEP) && e->period > 0)
         return sb_reader_fail(reader, map, "eurotop",
-                              "period: %g s, but the rate at a vertical wall does not depend on it, expected a slope, "
+                              "period: %g s, but the rate at a %s does not depend on it, expected a slope up to 1:2, "
                               "or no period",
-                              e->period);
+                              e->period, e->slope > 0 ? "steep slope" : "vertical wall");
     return SB_OK;
 }
 

@@ -68,7 +68,7 @@ static const sb_key keys[] = {
     LAW_NUMBER(speed, "m/s", SB_WM_SPEED, "laws that need a speed", "Top speed of the stroke."),
     {.name = "file", .type = SB_KEY_FILE, SB_KEY_AT(sb_wavemaker_use, law.file),
      .flags = SB_KEY_REQUIRED, .applies = SB_WM_FILE, .only = "laws that need a file",
-     .doc = "Table of times and displacements; of waves for `components`; of times and surfaces for `signal`."},
+     .doc = "Table of times and displacements; of waves for `components`; of times and surfaces for `signal`, whose first row is at `start`, whatever its time."},
     LAW_NUMBER(period, "s", SB_WM_PERIOD, "laws that need a period", "Wave period; of a spectrum, that of its peak."),
     LAW_NUMBER(distance, "m", SB_WM_DISTANCE, "focused and signal",
            "Distance ahead of the paddle at which the waves focus, or have the surface of the file."),
@@ -156,6 +156,9 @@ static sb_status check_unused(sb_reader *reader, const sb_yaml *map, const sb_wa
     if (strcmp(law->kind->name, "absorber") == 0 && (law->start > 0 || isfinite(law->lasts)))
         return sb_reader_fail(reader, map, law->start > 0 ? "start" : "lasts",
                               "an absorber absorbs from the beginning to the end of the run, expected no such key");
+    if (strcmp(law->kind->name, "absorber") == 0 && law->ramp >= 0 && fabs(law->ramp - 2 * law->period) > 1e-9)
+        return sb_reader_fail(reader, map, "ramp",
+                              "an absorber makes no waves, whose motion would grow, expected no such key");
     if (!law->absorb && fabs(law->reach - usual) > 1e-9 * usual)
         return sb_reader_fail(reader, map, "reach",
                               "%g m, but the paddle does not absorb, expected absorb: true, or no reach", law->reach);

@@ -12,6 +12,10 @@ enum { DEPTH_MIN = 4 };
    quarter less, and some of it has passed a wall (tools/stress time-step). */
 static const double LONGEST_STEP = 0.3, REFUSED_STEP = 0.6;
 
+/* `cfl` of explicit steps. Still water by `preset: wen` gains no energy up to 0.8; with 0.9 it has eight times as much
+   after 0.5 s, with 1 it compresses by 14 %. */
+static const double LONGEST_EXPLICIT = 0.6;
+
 /* In spacings: rounding errors of a mesh file's coordinates from this size on are reported. */
 static const double ROUNDED = 0.01;
 
@@ -63,16 +67,18 @@ static const double DEPTH_SLACK = 1.5, DEPTH_SHARE = 0.05, NEAR = 3;
 /* Water between two positions along a direction. */
 typedef struct stretch {
     sb_vec3 along;
-    double from, to, lowest;
+    double from, to, lowest, highest;
 } stretch;
 
-static void find_lowest(void *context, const sb_water_piece *piece)
+static void find_heights(void *context, const sb_water_piece *piece)
 {
     stretch *s = context;
     for (size_t i = 0; i < piece->count; i++) {
         const sb_vec3 at = piece->position[i];
         const double where = sb_dot(at, s->along);
-        if (where >= s->from && where <= s->to && at.z < s->lowest) s->lowest = at.z;
+        if (!(where >= s->from && where <= s->to)) continue;
+        s->lowest = fmin(s->lowest, at.z);
+        s->highest = fmax(s->highest, at.z);
     }
 }
 
@@ -83,15 +89,18 @@ typedef struct checked {
     sb_model *model;
 } checked;
 
-/* Compares a depth with that of the still water within a stretch. */
+/* Compares a depth with that of the still water within a stretch. *level: of its surface, m, if there is water; without
+   a sea that of the highest. May be NULL. */
 static sb_status check_depth(const checked *c, const char *what, const char *name, double depth, sb_vec3 along,
-                             double from, double to, sb_error *error)
+                             double from, double to, double *level, sb_error *error)
 {
     sb_model *model = c->model;
-    stretch s = {along, from, to, (double)INFINITY};
-    const sb_status status = sb_model_visit_water(c->space, model, find_lowest, &s, error);
+    stretch s = {along, from, to, (double)INFINITY, -(double)INFINITY};
+    const sb_status status = sb_model_visit_water(c->space, model, find_heights, &s, error);
     if (status != SB_OK) return status;
-    const double there = fmax(c->scene->sea.level - s.lowest + 0.5 * model->spacing, 0);
+    const double surface = c->scene->sea.present ? c->scene->sea.level : s.highest + 0.5 * model->spacing;
+    const double there = isfinite(s.lowest) ? fmax(surface - s.lowest + 0.5 * model->spacing, 0) : 0;
+    if (level && isfinite(surface)) *level = surface;
     if (there == 0) return sb_model_warn(model, error, "%s%s: no water is there at t = 0", what, name);
     if (fabs(depth - there) <= fmax(DEPTH_SLACK * model->spacing, DEPTH_SHARE * there)) return SB_OK;
     return sb_model_warn(model, error,
@@ -100,14 +109,24 @@ static sb_status check_depth(const checked *c, const char *what, const char *nam
                          what, name, depth, there);
 }
 
-/* Compares the lowest height of the crests of a wave maker, half of the wave height or that of a solitary wave, with
-   the tops of the domain and of its body. top: of the boundary particles, which lie within the body. */
-static sb_status check_crest(const checked *c, const sb_wavemaker_use *maker, double top, sb_error *error)
+/* Elevation of the crests of a wave maker, m: of a solitary wave its height. 0: it makes no waves, or they are not
+   known. */
+static double crest_of(const sb_wavemaker_parameters *law)
 {
-    const sb_wavemaker_parameters *law = &maker->law;
-    const bool train = law->kind->needs & SB_WM_TRAIN;
-    const double crest = c->scene->sea.level + (train ? 0.5 : 1) * law->height;
-    if (!(law->height > 0)) return SB_OK;
+    sb_paddle paddle = {0};
+    if (!law->kind->facts) return law->height;
+    if (sb_paddle_create(law, &paddle, NULL) != SB_OK) return 0;
+    const double crest = law->kind->facts(paddle.state)->crest;
+    sb_paddle_destroy(&paddle);
+    return crest;
+}
+
+/* Compares the crests of a wave maker with the tops of the domain and of its body. level: of the still water; top: of
+   the boundary particles, which lie within the body. */
+static sb_status check_crest(const checked *c, const sb_wavemaker_use *maker, double level, double top, sb_error *error)
+{
+    const double elevation = crest_of(&maker->law), crest = level + elevation;
+    if (!(elevation > 0)) return SB_OK;
     if (crest > c->scene->domain.max.z)
         return sb_model_warn(
             c->model, error,
@@ -133,19 +152,20 @@ static sb_status check_depths(const sb_scene *scene, const sb_model_space *space
     sb_status status = SB_OK;
     if (wave->kind == SB_INITIAL_SOLITARY && scene->sea.present)
         status = check_depth(&c, "water.wave", " at its crest", wave->depth, east, wave->position - near,
-                             wave->position + near, error);
+                             wave->position + near, NULL, error);
     if ((wave->kind == SB_INITIAL_REGULAR || wave->kind == SB_INITIAL_COMPONENTS ||
          wave->kind == SB_INITIAL_STANDING) &&
         scene->sea.present)
-        status = check_depth(&c, "water.wave", "", wave->depth, east, model->min.x, model->max.x, error);
+        status = check_depth(&c, "water.wave", "", wave->depth, east, model->min.x, model->max.x, NULL, error);
     if (status == SB_OK && wave->kind != SB_INITIAL_NONE && scene->sea.present &&
         scene->sea.level + sb_initial_crest(wave) > scene->domain.max.z)
         status = sb_model_warn(model, error,
                                "water.wave: its crest at z = %g m is above the domain's top, %g m: it is cut off",
                                scene->sea.level + sb_initial_crest(wave), scene->domain.max.z);
-    for (size_t w = 0; w < scene->wavemaker_count && status == SB_OK && scene->sea.present; w++) {
+    for (size_t w = 0; w < scene->wavemaker_count && status == SB_OK; w++) {
         const sb_wavemaker_use *maker = &scene->wavemakers[w];
         double front = -(double)INFINITY, top = -(double)INFINITY;
+        double level = scene->sea.present ? scene->sea.level : -(double)INFINITY;
         char name[SB_NAME_MAX + 4];
         for (size_t b = 0; b < model->body_count; b++)
             for (size_t i = model->bodies[b].begin; i < model->bodies[b].begin + model->bodies[b].count; i++)
@@ -154,11 +174,12 @@ static sb_status check_depths(const sb_scene *scene, const sb_model_space *space
                     if (sb_dot(model->wall_normal[i], maker->direction) > 0.9)
                         front = fmax(front, sb_dot(model->wall_position[i], maker->direction));
                 }
-        status = check_crest(&c, maker, top, error);
-        if (status != SB_OK) return status;
-        if (!(maker->law.depth > 0) || !isfinite(front)) continue;
-        snprintf(name, sizeof name, " \"%s\"", maker->name);
-        status = check_depth(&c, "wave maker", name, maker->law.depth, maker->direction, front, front + near, error);
+        if (maker->law.depth > 0 && isfinite(front)) {
+            snprintf(name, sizeof name, " \"%s\"", maker->name);
+            status = check_depth(&c, "wave maker", name, maker->law.depth, maker->direction, front, front + near,
+                                 &level, error);
+        }
+        if (status == SB_OK && isfinite(level)) status = check_crest(&c, maker, level, top, error);
     }
     return status;
 }
@@ -183,6 +204,11 @@ static sb_status check_water(const sb_scene *scene, const sb_model_space *space,
 static sb_status check_steps(const sb_scene *scene, sb_model *model, sb_error *error)
 {
     const sb_numerics *n = &scene->numerics;
+    if (n->solver == SB_SOLVER_WCSPH && n->cfl > LONGEST_EXPLICIT)
+        return sb_model_warn(model, error,
+                             "numerics.cfl %g: explicit steps this long are near the limit of stability, from which "
+                             "on still water moves and compresses; expected %g or less",
+                             n->cfl, LONGEST_EXPLICIT);
     if (n->solver == SB_SOLVER_WCSPH || n->time_step_rule != SB_TIME_STEP_DEPTH) return SB_OK;
     if (n->time_step_factor <= LONGEST_STEP * (1 + 1e-6)) return SB_OK;
     if (n->time_step_factor > REFUSED_STEP * (1 + 1e-6))

@@ -65,7 +65,8 @@ static sb_status check_facing(const sb_scene *scene, size_t maker, const sides *
                    scene->path ? scene->path : "the scene", maker, scene->wavemakers[maker].name, towards);
 }
 
-/* An undivided paddle absorbs by the mean surface over its face, where it is within the domain. */
+/* An undivided paddle absorbs by the mean surface over its face, where it is within the domain; push-plates without
+   water do not absorb. */
 static sb_status check_width(const sb_scene *scene, size_t maker, const sides *s, sb_model *model, sb_error *error)
 {
     const sb_wavemaker_use *use = &scene->wavemakers[maker];
@@ -74,8 +75,12 @@ static sb_status check_width(const sb_scene *scene, size_t maker, const sides *s
     const double to = fmin(face.front, sb_domain_end(&scene->domain, s->across));
     const double water =
         fmin(to, s->water.front + 0.5 * model->spacing) - fmax(from, s->water.back - 0.5 * model->spacing);
-    if (scene->dimensions == 2 || !use->law.absorb || use->plates.width > 0 || !s->ahead || water > WIDE * (to - from))
-        return SB_OK;
+    if (scene->dimensions == 2 || !use->law.absorb || !s->ahead || water > WIDE * (to - from)) return SB_OK;
+    if (use->plates.width > 0)
+        return sb_model_warn(model, error,
+                             "wave maker \"%s\": of its face of %.3g m, %.3g m have water ahead: push-plates without "
+                             "water do not absorb; expected a body as wide as the water",
+                             use->name, to - from, water);
     return sb_model_warn(
         model, error,
         "wave maker \"%s\": it absorbs by the mean surface over its face of %.3g m, and %.3g m of that "
@@ -97,7 +102,16 @@ static sb_status check_travel(const sb_scene *scene, const sb_wavemaker_use *use
     const double ahead = sb_domain_end(&scene->domain, use->direction) - paddle.front;
     const double end = sb_domain_end(&scene->domain, back);
     const double behind = end + paddle.back > 0 ? end + paddle.back : end + paddle.front;
-    if (way.most <= ahead && -way.least <= behind) return SB_OK;
+    const double room = fmin(ahead - way.most, behind + way.least);
+    /* The reach of half of the depth, which scenes have that give none, is far beyond what waves need. */
+    const bool given = fabs(use->law.reach - 0.5 * use->law.depth) > 1e-9 * use->law.depth;
+    if (room >= 0 && use->law.absorb && given && use->law.reach > room)
+        return sb_model_warn(model, error,
+                             "wave maker \"%s\": its reach of %.3g m is beyond the domain, which has %.3g m behind it "
+                             "and %.3g m ahead, of which its law takes %.3g and %.3g m; expected a reach of at most "
+                             "%.3g m, or a longer domain",
+                             use->name, use->law.reach, behind, ahead, 0 - way.least, way.most, room);
+    if (room >= 0) return SB_OK;
     return sb_model_warn(
         model, error,
         "wave maker \"%s\": it moves %.3g m back and %.3g m ahead, and the domain has %.3g m behind it "
@@ -127,10 +141,12 @@ static sb_status check_sponges(const sb_scene *scene, const sb_wavemaker_use *us
         const double along = sb_component(use->direction, sponge->side / 2), sign = sponge->side % 2 ? 1 : -1;
         const double face = paddle.front * along, room = (sponge->end - face) * sign;
         if (fabs(along) < 0.99 || room >= sponge->length * (1 - 1e-9)) continue;
+        char length[64] = "a sponge at another side, or a longer domain";
+        if (room > 0) snprintf(length, sizeof length, "a length below %.4g m", room);
         return sb_model_warn(model, error,
                              "sponge \"%s\": it covers the face of wave maker \"%s\" at %c = %.4g m, and takes its "
-                             "waves where they are made; expected a length below %.4g m",
-                             sponge->name, use->name, "xy"[sponge->side / 2], face, fmax(room, 0));
+                             "waves where they are made; expected %s",
+                             sponge->name, use->name, "xy"[sponge->side / 2], face, length);
     }
     return SB_OK;
 }

@@ -1,4 +1,5 @@
 /* Warns of initial waves that are cut off: beyond a side, inside a body, or on land. */
+#include "base/per_cent.h"
 #include "geometry/model/parts.h"
 
 #include <stdio.h>
@@ -24,13 +25,13 @@ static void advise(const sb_scene *scene, const sb_wave_room *room, char *text, 
 
 sb_status sb_model_warn_wave(const sb_scene *scene, const sb_wave_room *room, sb_model *model, sb_error *error)
 {
-    char advice[160];
+    char advice[160], part[32];
     if (!room->wet || !(room->area > 0)) return SB_OK;
     const double missing = room->width > 0 ? 1 - room->held / (room->area * room->width) : 1;
     if (!(missing > MISSING)) return SB_OK;
     advise(scene, room, advice, sizeof advice);
     return sb_model_warn(model, error,
-                         "water.wave: %.2g %% of the wave's volume above the still-water level is cut off: it lies "
+                         "water.wave: %s of the wave's volume above the still-water level is cut off: it lies "
                          "beyond a side, in a body or on land, and the water extends from x = %g m to %g m; %s",
-                         100 * missing, room->low, room->high, advice);
+                         sb_per_cent(missing, part), room->low, room->high, advice);
 }

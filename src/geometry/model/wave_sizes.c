@@ -1,6 +1,7 @@
 /* Warns of waves that are too low or too short for the spacing, and of linear waves that are too long for their theory.
  */
 #include "base/memory.h"
+#include "base/per_cent.h"
 #include "geometry/model/parts.h"
 #include "physics/breaking.h"
 #include "physics/dispersion.h"
@@ -126,6 +127,7 @@ static const double TAIL = 0.1;
 static sb_status check_band(const sb_wavemaker_use *maker, const sb_paddle *paddle, sb_model *model, sb_error *error)
 {
     const sb_wavemaker_parameters *law = &maker->law;
+    char part[32];
     size_t count;
     sb_band_part *band = sb_paddle_band(paddle, &count);
     if (!band) return sb_fail_memory(error, "a wave maker");
@@ -138,9 +140,9 @@ static sb_status check_band(const sb_wavemaker_use *maker, const sb_paddle *padd
     sb_free(band);
     if (count < 2 || !(lost > TAIL * all)) return SB_OK;
     return sb_model_warn(model, error,
-                         "wave maker \"%s\": %.2g %% of the energy of its waves is in lengths below %g m, %d particle "
+                         "wave maker \"%s\": %s of the energy of its waves is in lengths below %g m, %d particle "
                          "spacings: such waves fade soon; expected a finer resolution or longer waves",
-                         maker->name, 100 * lost / all, LENGTH_MIN * model->spacing, LENGTH_MIN);
+                         maker->name, sb_per_cent(lost / all, part), LENGTH_MIN * model->spacing, LENGTH_MIN);
 }
 
 static sb_status check_maker(const sb_wavemaker_use *maker, sb_model *model, sb_error *error)

@@ -162,12 +162,25 @@ static void unfit_flaps_are_refused(void **state)
     }
 }
 
+/* 1.6 m at 4 mm would be 200 rows of two spacings. */
+static void fine_flaps_have_a_hundred_rows(void **state)
+{
+    (void)state;
+    static const fineness finest = {"0.004", "0.05"};
+    sb_scene scene;
+    sb_plate_row row;
+    sb_error error = {0};
+    if (read_scene(", motion: flap", &finest, &scene, &error) != SB_OK) fail_msg("%s", error.text);
+    assert_int_equal(sb_scene_plates(&scene, &scene.wavemakers[0], &row), 100);
+    assert_near(row.to - row.from, 1.6, 1e-12);
+    sb_scene_free(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(unfit_flaps_are_refused),
-        cmocka_unit_test(rows_follow_the_hinge),
-        cmocka_unit_test(waves_have_the_height_of_theory),
+        cmocka_unit_test(unfit_flaps_are_refused),         cmocka_unit_test(fine_flaps_have_a_hundred_rows),
+        cmocka_unit_test(rows_follow_the_hinge),           cmocka_unit_test(waves_have_the_height_of_theory),
         cmocka_unit_test(flaps_make_the_waves_of_pistons),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
