@@ -221,7 +221,7 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
 
 /* The flume of a quick form ends after five wavelengths. */
 #define SHORT(top, periods)                                                                                            \
-    "domain.max=[500, " top "]", "duration=" periods,                                                                  \
+    "domain.max=[550, " top "]", "duration=" periods,                                                                  \
         "measure.gauges=[{name: g0200, x: 200}, {name: g0237, x: 237}, {name: g0280, x: 280}, {name: g0330, x: 330}, " \
         "{name: g0390, x: 390}]",                                                                                      \
         NULL

@@ -31,7 +31,9 @@ static void evaluate(const sb_case_run *run, sb_figures *figures)
     const sb_curve *own = heights_of(run), *lab = laboratory(run);
     sb_curve *ratio = sb_curve_new(run->made);
     for (size_t i = 0; i < lab->count; i++) sb_curve_add(ratio, lab->x[i], sb_curve_at(own, lab->x[i]) / lab->y[i] - 1);
-    sb_figure_below(figures, "height along the slope, RMS difference", "%", 100 * sb_curve_rms(ratio, 0, 10.8), 10,
+    const bool all = sb_curve_shared(own, lab, 0, 10.8) == lab->count; /* a mean without some is none */
+    sb_figure_below(figures, "height along the slope, RMS difference", "%",
+                    all ? 100 * sb_curve_rms(ratio, 0, 10.8) : (double)NAN, 10,
                     "relative to the measured height, at the %zu places of the laboratory", lab->count);
     const size_t breaks = sb_curve_highest(own, 0, 10.8), measured = sb_curve_highest(lab, 0, 10.8);
     sb_figure_difference(figures, "place of the greatest height", "m", sb_curve_x(lab, measured),

@@ -73,6 +73,35 @@ double sb_wave_fit_number(const sb_wavemaker_parameters *law)
     return sb_wave_number(law->period, law->depth, law->gravity);
 }
 
+/* Root mean square of the difference from `first` on, if the data cover it. */
+static double distance(const sb_curve *curve, const sb_curve *data, double first, double lag)
+{
+    double sum = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < curve->count; i++) {
+        if (curve->x[i] < first) continue;
+        const double difference = curve->y[i] - sb_curve_at(data, curve->x[i] + lag);
+        sum += difference * difference;
+        count++;
+    }
+    return count > 1 ? sqrt(sum / (double)count) : (double)NAN;
+}
+
+double sb_wave_fit_least(const sb_curve *curve, const sb_curve *data, double first, double onto, double period,
+                         double *lag)
+{
+    enum { TRIES = 244 };
+    double least = *lag = (double)NAN;
+    for (int i = 0; i < TRIES; i++) {
+        const double here = onto - first + period * i / TRIES, d = distance(curve, data, first, here);
+        if (!(d >= least) && !isnan(d)) {
+            least = d;
+            *lag = here;
+        }
+    }
+    return least;
+}
+
 sb_split sb_wave_fit_split(const sb_case_run *run, const char *prefix, double period, double number, double first,
                            double last)
 {

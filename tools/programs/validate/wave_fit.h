@@ -29,6 +29,12 @@ sb_wave_range sb_wave_fit_range(const sb_curve *curve, double period, double fir
 /* Crest minus trough. */
 double sb_wave_fit_height(const sb_curve *curve, double period, double first, double last);
 
+/* Lays the curve from `first` on over `data` by one lag, the clocks having no common origin: the curve's first point
+   comes to a time of the data from `onto` to a period later. Sets the lag, s, of the least root mean square of the
+   difference, and returns it. NaN, and a lag of NaN, where the data never cover the whole curve. */
+double sb_wave_fit_least(const sb_curve *curve, const sb_curve *data, double first, double onto, double period,
+                         double *lag);
+
 /* Splits the first harmonic at all gauges whose names begin with `prefix`. number: of its waves, 1/m. */
 sb_split sb_wave_fit_split(const sb_case_run *run, const char *prefix, double period, double number, double first,
                            double last);
