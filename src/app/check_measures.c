@@ -35,9 +35,9 @@ static void warn_of_waves(const sb_scene *scene, sb_warning_visit *visit, void *
     }
     if (waves->period > 0 && harmonics < SB_WAVE_HARMONICS) {
         snprintf(text, sizeof text,
-                 "measure.waves.period: of the five harmonics of %g s only %d have more than two rows of "
-                 "measure.interval %g s: the others are not measured; expected a period above %.3g s, or an interval "
-                 "below %.3g s",
+                 "measure.waves.period: harmonics of %g s above number %d have two rows of measure.interval %g s in "
+                 "their period or fewer: they are not measured; expected a period above %.3g s, or an interval below "
+                 "%.3g s",
                  waves->period, harmonics, scene->measure.interval, 2 * SB_WAVE_HARMONICS * scene->measure.interval,
                  waves->period / (2 * SB_WAVE_HARMONICS));
         visit(context, text);

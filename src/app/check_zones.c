@@ -75,8 +75,9 @@ static void warn_of_reflection(const sb_scene *scene, const sb_sponge *sponge, s
     static const double most = 0.2;
     char text[400], reflected[32];
     for (size_t w = 0; w < scene->wavemaker_count; w++) {
+        if (sponge->kind != SB_SPONGE_DAMPING || !run_to(&scene->wavemakers[w], sponge)) continue;
         const double period = period_of(&scene->wavemakers[w]);
-        if (sponge->kind != SB_SPONGE_DAMPING || !(period > 0) || !run_to(&scene->wavemakers[w], sponge)) continue;
+        if (!(period > 0)) continue;
         const double share = sb_sponge_reflection(sponge->profile, sponge->strength, 2 * M_PI / period, sponge->depth,
                                                   scene->fluid.gravity, sponge->length);
         if (!(share > most)) continue;

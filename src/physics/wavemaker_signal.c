@@ -109,7 +109,20 @@ static int compare_steps(const void *a, const void *b)
     return (one > other) - (one < other);
 }
 
-/* The usual step is the median, which a gap of the file does not change. */
+/* Whether all steps are `expected` s within a share of it. */
+static sb_status check_steps(const char *path, const series *s, double expected, double share, sb_error *error)
+{
+    for (size_t i = 1; i < s->rows; i++) {
+        const double step = s->values[2 * i] - s->values[2 * i - 2];
+        if (fabs(step - expected) > share * expected)
+            return sb_fail(error, SB_BAD_INPUT,
+                           "%.500s: row %zu, of %g s, follows after %g s, expected equal steps of about %g s", path,
+                           i + 1, s->values[2 * i], step, expected);
+    }
+    return SB_OK;
+}
+
+/* A gap, which is part of the mean step, is one beside the median; steps of rounded times are equal beside the mean. */
 static sb_status check_times(const char *path, series *s, sb_error *error)
 {
     for (size_t i = 1; i < s->rows; i++)
@@ -124,14 +137,8 @@ static sb_status check_times(const char *path, series *s, sb_error *error)
     qsort(steps, s->rows - 1, sizeof *steps, compare_steps);
     const double usual = steps[(s->rows - 1) / 2];
     sb_free(steps);
-    for (size_t i = 1; i < s->rows; i++) {
-        const double step = s->values[2 * i] - s->values[2 * i - 2];
-        if (fabs(step - usual) > 0.02 * usual)
-            return sb_fail(error, SB_BAD_INPUT,
-                           "%.500s: row %zu, of %g s, follows after %g s, expected equal steps: most are of %g s", path,
-                           i + 1, s->values[2 * i], step, usual);
-    }
-    return SB_OK;
+    const sb_status status = check_steps(path, s, usual, 0.5, error);
+    return status == SB_OK ? check_steps(path, s, s->step, 0.02, error) : status;
 }
 
 /* Checks the rows and prepares their transform. */

@@ -67,19 +67,33 @@ static const double DEPTH_SLACK = 1.5, DEPTH_SHARE = 0.05, NEAR = 3;
 /* Water between two positions along a direction. */
 typedef struct stretch {
     sb_vec3 along;
-    double from, to, lowest, highest;
+    double from, to;
+    bool found;
+    sb_vec3 lowest; /* place of the lowest water, if any is found */
 } stretch;
 
-static void find_heights(void *context, const sb_water_piece *piece)
+static void find_lowest(void *context, const sb_water_piece *piece)
 {
     stretch *s = context;
     for (size_t i = 0; i < piece->count; i++) {
         const sb_vec3 at = piece->position[i];
         const double where = sb_dot(at, s->along);
-        if (!(where >= s->from && where <= s->to)) continue;
-        s->lowest = fmin(s->lowest, at.z);
-        s->highest = fmax(s->highest, at.z);
+        if (!(where >= s->from && where <= s->to) || (s->found && at.z >= s->lowest.z)) continue;
+        s->found = true;
+        s->lowest = at;
     }
+}
+
+/* Level of the still water that has water at this place: of the sea, or of the box of water around it. */
+static double level_around(const sb_scene *scene, sb_vec3 at)
+{
+    double level = scene->sea.present ? scene->sea.level : at.z;
+    for (size_t i = 0; i < scene->box_count; i++) {
+        const sb_fluid_box *box = &scene->boxes[i];
+        const bool across = scene->dimensions == 2 || (at.y > box->min.y && at.y < box->max.y);
+        if (at.x > box->min.x && at.x < box->max.x && across && at.z > box->min.z) level = fmax(level, box->level);
+    }
+    return level;
 }
 
 /* The scene, its solids and the model whose depths are checked. */
@@ -89,18 +103,18 @@ typedef struct checked {
     sb_model *model;
 } checked;
 
-/* Compares a depth with that of the still water within a stretch. *level: of its surface, m, if there is water; without
-   a sea that of the highest. May be NULL. */
+/* Compares a depth with that of the still water within a stretch. *level: of its surface, m, if there is water. May be
+   NULL. */
 static sb_status check_depth(const checked *c, const char *what, const char *name, double depth, sb_vec3 along,
                              double from, double to, double *level, sb_error *error)
 {
     sb_model *model = c->model;
-    stretch s = {along, from, to, (double)INFINITY, -(double)INFINITY};
-    const sb_status status = sb_model_visit_water(c->space, model, find_heights, &s, error);
+    stretch s = {.along = along, .from = from, .to = to};
+    const sb_status status = sb_model_visit_water(c->space, model, find_lowest, &s, error);
     if (status != SB_OK) return status;
-    const double surface = c->scene->sea.present ? c->scene->sea.level : s.highest + 0.5 * model->spacing;
-    const double there = isfinite(s.lowest) ? fmax(surface - s.lowest + 0.5 * model->spacing, 0) : 0;
-    if (level && isfinite(surface)) *level = surface;
+    const double surface = level_around(c->scene, s.lowest);
+    const double there = s.found ? fmax(surface - s.lowest.z + 0.5 * model->spacing, 0) : 0;
+    if (level && s.found) *level = surface;
     if (there == 0) return sb_model_warn(model, error, "%s%s: no water is there at t = 0", what, name);
     if (fabs(depth - there) <= fmax(DEPTH_SLACK * model->spacing, DEPTH_SHARE * there)) return SB_OK;
     return sb_model_warn(model, error,
@@ -206,8 +220,8 @@ static sb_status check_steps(const sb_scene *scene, sb_model *model, sb_error *e
     const sb_numerics *n = &scene->numerics;
     if (n->solver == SB_SOLVER_WCSPH && n->cfl > LONGEST_EXPLICIT)
         return sb_model_warn(model, error,
-                             "numerics.cfl %g: explicit steps this long are near the limit of stability, from which "
-                             "on still water moves and compresses; expected %g or less",
+                             "numerics.cfl %g: with solver wcsph, steps above 0.8 move and compress still water; "
+                             "expected %g or less",
                              n->cfl, LONGEST_EXPLICIT);
     if (n->solver == SB_SOLVER_WCSPH || n->time_step_rule != SB_TIME_STEP_DEPTH) return SB_OK;
     if (n->time_step_factor <= LONGEST_STEP * (1 + 1e-6)) return SB_OK;

@@ -102,16 +102,7 @@ static sb_status check_travel(const sb_scene *scene, const sb_wavemaker_use *use
     const double ahead = sb_domain_end(&scene->domain, use->direction) - paddle.front;
     const double end = sb_domain_end(&scene->domain, back);
     const double behind = end + paddle.back > 0 ? end + paddle.back : end + paddle.front;
-    const double room = fmin(ahead - way.most, behind + way.least);
-    /* The reach of half of the depth, which scenes have that give none, is far beyond what waves need. */
-    const bool given = fabs(use->law.reach - 0.5 * use->law.depth) > 1e-9 * use->law.depth;
-    if (room >= 0 && use->law.absorb && given && use->law.reach > room)
-        return sb_model_warn(model, error,
-                             "wave maker \"%s\": its reach of %.3g m is beyond the domain, which has %.3g m behind it "
-                             "and %.3g m ahead, of which its law takes %.3g and %.3g m; expected a reach of at most "
-                             "%.3g m, or a longer domain",
-                             use->name, use->law.reach, behind, ahead, 0 - way.least, way.most, room);
-    if (room >= 0) return SB_OK;
+    if (way.most <= ahead && -way.least <= behind) return SB_OK;
     return sb_model_warn(
         model, error,
         "wave maker \"%s\": it moves %.3g m back and %.3g m ahead, and the domain has %.3g m behind it "

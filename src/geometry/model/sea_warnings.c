@@ -230,7 +230,7 @@ static sb_status warn_direction(const sb_scene *scene, sb_model *model, sb_error
 
 sb_status sb_model_sea_warn(const sb_scene *scene, sb_sea_source *sea, sb_model *model, sb_error *error)
 {
-    const bool still = scene->wave.kind == SB_INITIAL_NONE && scene->box_count == 0;
+    const bool still = sb_scene_starts_still(scene);
     const farthest first = still ? first_height(scene, model, sea) : (farthest){0};
     sb_status status = SB_OK;
     if (sb_sea_warning(sea)) status = sb_model_warn(model, error, "%s", sb_sea_warning(sea));

@@ -118,13 +118,12 @@ double sb_absorber_advance(sb_sim *sim, sb_moving_body *moving)
     const double dt = sim->state.time_step, law = moving->displacement - a->state.offset;
     if (!a->known) a->still = a->depth;
     a->known = true;
-    /* A face before land, with less than one layer of water at the start, has no waves: it stays at its law. */
-    const bool land = a->still < sim->model->spacing;
-    const double expected = moving->paddle.kind->surface(moving->paddle.state, sim->state.time - moving->paddle.start);
-    const sb_absorbing_input input = {.surface = land ? expected : a->depth - a->still,
-                                      .expected = expected,
-                                      .law_speed = (moving->next_displacement - law) / dt,
-                                      .reach = a->reach};
+    if (a->plates > 0 && a->still == 0) return a->state.offset; /* a plate before land stays at its law */
+    const sb_absorbing_input input = {
+        .surface = a->depth - a->still,
+        .expected = moving->paddle.kind->surface(moving->paddle.state, sim->state.time - moving->paddle.start),
+        .law_speed = (moving->next_displacement - law) / dt,
+        .reach = a->reach};
     if (sb_absorbing_advance(&a->filter, &input, dt, &a->state)) a->limited++;
     a->farthest = fmax(a->farthest, fabs(a->state.offset));
     note_drift(a, dt);

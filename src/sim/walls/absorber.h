@@ -15,9 +15,9 @@ typedef struct sb_absorber {
     double period;           /* s, of its waves, at the peak */
     double depth;            /* m, of the water beside it at the beginning of the step */
     /* state */
-    bool known;               /* the column at rest is */
-    bool drifted;             /* ten whole periods have passed */
-    double still;             /* m, depth of the water beside it at the start, by its particles */
+    bool known;   /* the column at rest is */
+    bool drifted; /* ten whole periods have passed */
+    double still; /* m, depth of the water beside it at the start, by its particles; 0: a plate before land */
     sb_absorbing_state state; /* its displacement from the law, and the filter's values */
     double farthest;          /* m, largest displacement from the law */
     uint64_t limited;         /* steps in which reach stopped it */

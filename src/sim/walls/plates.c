@@ -50,17 +50,26 @@ static void add(const sb_moving_body *moving, sb_vec3 at, double width, bool rep
     }
 }
 
-/* A sea without a wave starts at rest, over any bed. Other water may stand higher before one plate than before another:
-   all plates then have the row's mean depth. */
-static bool starts_at_rest(const sb_scene *scene)
+/* Depths of the still water before the plates of a row, which are known at the start. A plate with less than a layer of
+   water faces land. Still water has its own depth before each plate, over any bed; other water may stand higher before
+   one than before another, and all then have the mean depth of those with water. */
+static void note_still(const sb_sim *sim, sb_moving_body *row, size_t count)
 {
-    return scene->sea.present && scene->box_count == 0 && scene->wave.kind == SB_INITIAL_NONE;
-}
-
-static void note_still(sb_absorber *a, double depth)
-{
-    if (!a->known) a->still = depth;
-    a->known = true;
+    const bool still = sb_scene_starts_still(sim->scene);
+    double sum = 0;
+    size_t wet = 0;
+    if (row->absorber->known) return;
+    for (size_t k = 0; k < count; k++) {
+        const bool water = row[k].absorber->depth >= sim->model->spacing;
+        sum += water ? row[k].absorber->depth : 0;
+        wet += water;
+    }
+    for (size_t k = 0; k < count; k++) {
+        sb_absorber *a = row[k].absorber;
+        const bool water = a->depth >= sim->model->spacing;
+        a->still = !water ? 0 : still ? a->depth : sum / (double)wet;
+        a->known = true;
+    }
 }
 
 int sb_plates_measure(sb_sim *sim, sb_moving_body *moving)
@@ -85,14 +94,9 @@ int sb_plates_measure(sb_sim *sim, sb_moving_body *moving)
     if (enough) {
         sim->exchange->sum(sim, sums, count);
         const double volume = (double)sim->constant.mass / (double)sim->constant.rest_density;
-        double mean = 0;
-        for (size_t k = 0; k < count; k++) {
-            const double depth = 2 * sb_exact_value(&sums[k]) * volume / (width * pitch);
-            moving[k].absorber->depth = depth;
-            mean += depth / (double)count;
-        }
-        const bool rest = starts_at_rest(sim->scene);
-        for (size_t k = 0; k < count; k++) note_still(moving[k].absorber, rest ? moving[k].absorber->depth : mean);
+        for (size_t k = 0; k < count; k++)
+            moving[k].absorber->depth = 2 * sb_exact_value(&sums[k]) * volume / (width * pitch);
+        note_still(sim, moving, count);
     }
     sb_free(sums);
     return enough ? 0 : -1;
