@@ -455,6 +455,20 @@ static void signals_refuse_bad_tables(void **state)
     make_good_table(NULL);
 }
 
+/* Times of 24 rows per second, rounded to milliseconds: steps of 0.041 and 0.042 s are equal ones. */
+static void signals_may_have_rounded_times(void **state)
+{
+    (void)state;
+    FILE *file = fopen(SIGNAL, "w");
+    assert_non_null(file);
+    for (int i = 0; i < 240; i++) fprintf(file, "%.3f %.6f\n", i / 24.0, 0.01 * sin(0.13 * i));
+    assert_int_equal(fclose(file), 0);
+    const sb_wavemaker_parameters parameters = good_parameters(sb_wavemaker_find("signal"));
+    sb_paddle paddle = make_paddle(&parameters);
+    sb_paddle_destroy(&paddle);
+    make_good_table(NULL);
+}
+
 static void paddle_waits_for_its_start(void **state)
 {
     (void)state;
@@ -518,6 +532,7 @@ int main(void)
         cmocka_unit_test(file_reads_headers_and_commas),
         cmocka_unit_test(file_refuses_bad_tables),
         cmocka_unit_test(signals_refuse_bad_tables),
+        cmocka_unit_test(signals_may_have_rounded_times),
         cmocka_unit_test(paddle_waits_for_its_start),
         cmocka_unit_test(paddle_returns_slowly_and_smoothly),
     };
