@@ -206,8 +206,7 @@ static void warn_of_dry_gauges(run *r, const sb_gauge_waves *waves)
     if (count > 1) snprintf(others, sizeof others, " (so have %zu more, in as many rows or fewer)", count - 1);
     sb_run_warn(r,
                 "waves.csv: gauge \"%.63s\" has no water in %zu of %zu rows%s, and its figures are those of the "
-                "others; expected "
-                "a gauge in deeper water, or another measure.waves.start",
+                "others; expected a gauge in deeper water, or another measure.waves.start",
                 m->gauges[worst].name, waves[worst].dry, waves[worst].dry + waves[worst].rows, others);
 }
 

@@ -282,6 +282,21 @@ static void check_and_run_give_the_same_warnings(void **state)
     }
 }
 
+/* The front of a dam break reaches the gauge, which has no water before. */
+static void a_run_warns_of_gauges_that_were_dry(void **state)
+{
+    (void)state;
+    write_text("dry.yaml",
+               "title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.8\noutput: {plots: false}\n"
+               "domain: {min: [0, 0], max: [2, 1]}\nwater: {boxes: [{min: [0, 0], max: [0.5, 0.6]}]}\n"
+               "measure: {interval: 0.02, gauges: [{name: near, x: 0.2}, {name: far, x: 1.2}], waves: {}}\n");
+    outcome o = RUN(0, "run", "dry.yaml", "--out=dry", "--quiet", "--overwrite");
+    assert_int_equal(lines_with(o.err, "waves.csv: gauge \"far\" has no water in ", "expected a gauge in deeper water"),
+                     1);
+    assert_null(strstr(o.err, "waves.csv: gauge \"near\""));
+    outcome_free(&o);
+}
+
 /* Waves that are high and long enough, and a plane where they pass. */
 static void right_seas_give_no_warnings(void **state)
 {
@@ -372,8 +387,11 @@ static void gauges_that_stay_empty_are_reported_once(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_and_run_give_the_same_warnings),     cmocka_unit_test(right_seas_give_no_warnings),
-        cmocka_unit_test(right_sponges_give_no_warnings),           cmocka_unit_test(right_numerics_give_no_warnings),
+        cmocka_unit_test(check_and_run_give_the_same_warnings),
+        cmocka_unit_test(a_run_warns_of_gauges_that_were_dry),
+        cmocka_unit_test(right_seas_give_no_warnings),
+        cmocka_unit_test(right_sponges_give_no_warnings),
+        cmocka_unit_test(right_numerics_give_no_warnings),
         cmocka_unit_test(gauges_that_stay_empty_are_reported_once),
     };
     return cmocka_run_group_tests(tests, program_setup, program_teardown);
