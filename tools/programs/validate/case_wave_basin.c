@@ -148,6 +148,9 @@ static void figure_heights(const sb_case_run *run, const theory *s, sb_figures *
     sb_figure_share(figures, "height at 6 m", "m", aim, height_at(run, s, "middle"), aim, 3, "the same");
     sb_figure_report(figures, "height at 6 m, range across the basin", "m", (double)NAN, high - low,
                      "of three gauges at 0.4, 1 and 1.6 m");
+    sb_figure_report(figures, "mean level at 6 m", "mm", (double)NAN,
+                     1e3 * sb_wave_fit_of(simulated(run, &all[1]), s->period, s->first, s->last).mean,
+                     "theory has 0: the long wave of the start changes the level by millimetres");
     sb_figure_report(figures, "height in the sponge over that aimed at", "", (double)NAN,
                      height_at(run, s, "sponge") / aim, "2.5 m behind its beginning");
 }
