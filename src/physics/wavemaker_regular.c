@@ -1,10 +1,7 @@
 /* Regular waves: a paddle by linear theory, a piston by second-order theory [Madsen 1971; Schaeffer 1996], and a piston
-   that follows the water of a cnoidal wave [Goring 1978]. The piston of second order makes the first harmonic of a
-   steady wave [Rienecker and Fenton 1981]. */
-#include "physics/breaking.h"
+   that follows the water of a cnoidal wave [Goring 1978]. */
 #include "physics/paddle_second.h"
 #include "physics/regular_wave.h"
-#include "physics/steady_wave.h"
 #include "physics/wave_train.h"
 
 #include <math.h>
@@ -23,17 +20,6 @@ static sb_status find_wave(const sb_wavemaker_parameters *p, sb_regular_wave *wa
                                   error);
 }
 
-/* A steady wave of the height H has a first harmonic below H/2: by third-order theory of deep water, by the share
-   3/8 (kH/2)^2. False: there is no steady wave of this height, or it is too long to be found, and then so low that H/2
-   is near. */
-static bool find_first_harmonic(const sb_regular_wave *wave, double *amplitude)
-{
-    sb_steady_wave steady;
-    if (!sb_steady_wave_of(wave->height, wave->period, wave->depth, wave->gravity, &steady)) return false;
-    *amplitude = steady.first;
-    return true;
-}
-
 static sb_status create(const sb_wavemaker_parameters *parameters, void **state, sb_error *error)
 {
     sb_regular_wave wave;
@@ -43,16 +29,15 @@ static sb_status create(const sb_wavemaker_parameters *parameters, void **state,
     sb_wave_train *train = sb_wave_train_create(parameters, parts);
     if (!train) return sb_fail_memory(error, "a wave maker");
     const double omega = 2 * M_PI / wave.period;
-    double first = 0.5 * wave.height;
-    if (parts > 1) find_first_harmonic(&wave, &first);
-    if (parts > 0) sb_wave_train_set(train, 0, first, omega, 0);
+    if (parts > 0) sb_wave_train_set(train, 0, 0.5 * wave.height, omega, 0);
     if (parts > 1) {
         /* s sin(2 omega t + ahead) = Re(-i s exp(i ahead) exp(2 i omega t)) */
-        const double complex second = CMPLX(0, 1) * sb_paddle_second(2 * first, omega, wave.depth, parameters->gravity);
+        const double complex second =
+            CMPLX(0, 1) * sb_paddle_second(wave.height, omega, wave.depth, parameters->gravity);
         train->part[1] = (sb_train_part){.omega = 2 * omega,
                                          .stroke = cabs(second),
                                          .ahead = carg(second),
-                                         .amplitude = wave.second * pow(2 * first / wave.height, 2),
+                                         .amplitude = wave.second,
                                          .number = 2 * wave.number,
                                          .bound = true};
     }
@@ -72,15 +57,7 @@ static sb_status create(const sb_wavemaker_parameters *parameters, void **state,
 static const char *warning(const sb_wavemaker_parameters *parameters)
 {
     sb_regular_wave wave;
-    double first;
-    if (find_wave(parameters, &wave, NULL) != SB_OK || wave.order == SB_WAVE_CNOIDAL) return NULL;
-    if (wave.order == SB_WAVE_STOKES2) {
-        const bool steep = wave.height > 0.5 * sb_breaking_height(wave.number, wave.depth);
-        return steep && !find_first_harmonic(&wave, &first)
-                   ? "no steady wave has this height: it will break, and is up to 20 per cent too high before; make it "
-                     "a tenth lower"
-                   : NULL;
-    }
+    if (find_wave(parameters, &wave, NULL) != SB_OK || wave.order != SB_WAVE_LINEAR) return NULL;
     if (wave.ursell < SB_URSELL_LIMIT) return NULL;
     return parameters->motion == SB_PADDLE_FLAP
                ? "linear theory, but H L^2/d^3 is above 26.3: free waves of twice the frequency will come with the "
@@ -92,7 +69,7 @@ static const char *warning(const sb_wavemaker_parameters *parameters)
 const sb_wavemaker sb_wavemaker_regular = {
     .name = "regular",
     .summary = "piston for regular waves: linear, second order, or cnoidal",
-    .reference = "Biesel 1951; Madsen 1971; Schaeffer 1996; Rienecker and Fenton 1981; Goring 1978",
+    .reference = "Biesel 1951; Madsen 1971; Schaeffer 1996; Goring 1978",
     .needs = SB_WM_HEIGHT | SB_WM_DEPTH | SB_WM_PERIOD | SB_WM_THEORY | SB_WM_TRAIN,
     .create = create,
     .warning = warning,

@@ -1,6 +1,5 @@
 /* Paddles that make waves of long duration: transfer functions against integrals, and trains against wave theory. */
 #include "../check.h"
-#include "physics/breaking.h"
 #include "physics/dispersion.h"
 #include "physics/paddle_second.h"
 #include "physics/wave_train.h"
@@ -134,9 +133,8 @@ static void regular_waves_choose_their_theory(void **state)
     assert_string_equal(train->facts.theory, "second-order");
     assert_near(train->ramp, 2 * p.period, 1e-12);
     const double omega = 2 * M_PI / p.period, t = 17.3;
-    const double sine = 2 * train->part[0].amplitude; /* height of the first harmonic */
-    const double stroke = sine / sb_paddle_gain(SB_PADDLE_PISTON, train->facts.number, p.depth);
-    const double complex second = sb_paddle_second(sine, omega, p.depth, p.gravity);
+    const double stroke = p.height / sb_paddle_gain(SB_PADDLE_PISTON, train->facts.number, p.depth);
+    const double complex second = sb_paddle_second(p.height, omega, p.depth, p.gravity);
     const double expected = 0.5 * stroke * sin(omega * t) + creal(second * cexp(CMPLX(0, 2 * omega * t)));
     assert_near(sb_wave_train_displacement(train, t), expected, 1e-12);
     sb_wave_train_destroy(train);
@@ -154,58 +152,6 @@ static void regular_waves_choose_their_theory(void **state)
     p.height = 0.3;
     assert_int_equal(p.kind->create(&p, &none, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "breaks"));
-}
-
-/* B31 of Stokes' expansion in kH/2 [Fenton 1985]: the first harmonic is H/2 (1 + B31 (kH/2)^2). */
-static double third_order(double kd)
-{
-    const double s = 1 / cosh(2 * kd);
-    return -0.375 * (1 + 3 * s + 3 * s * s + 2 * s * s * s) / pow(1 - s, 3);
-}
-
-/* A wave of the height H has less than H/2 in its first harmonic, and the bound second one follows its square. */
-static void steep_waves_have_a_smaller_first_harmonic(void **state)
-{
-    (void)state;
-    const double depths[] = {0.8, 1, 1.5, 3, 8}, steepness[] = {0.02, 0.04, 0.08};
-    for (size_t d = 0; d < 5; d++)
-        for (size_t i = 0; i < 3; i++) {
-            const double number = depths[d], speed = sqrt(GRAVITY / number * tanh(depths[d]));
-            sb_wavemaker_parameters p = parameters_of("regular");
-            p.depth = 1;
-            p.height = 2 * steepness[i] / number;
-            p.period = 2 * M_PI / (number * speed);
-            p.theory = SB_WAVE_STOKES2;
-            sb_wave_train *train = train_of(&p);
-            const double half = 0.5 * p.height, share = train->part[0].amplitude / half;
-            const double third = third_order(depths[d]) * pow(steepness[i], 2);
-            assert_true(share < 1);
-            assert_near(share - 1, third, 6 * third * third);
-            const double t = tanh(depths[d]);
-            assert_near(train->part[1].amplitude, 0.25 * number * pow(share * half, 2) * (3 - t * t) / (t * t * t),
-                        1e-12);
-            sb_wave_train_destroy(train);
-        }
-}
-
-/* Miche's limit is a little above the height at which steady waves end. */
-static void waves_that_are_not_steady_are_named(void **state)
-{
-    (void)state;
-    sb_wavemaker_parameters p = parameters_of("regular");
-    p.depth = 1;
-    p.period = 1.98; /* kd 1.2 */
-    const double number = sb_wave_number(p.period, p.depth, GRAVITY);
-    p.height = 0.99 * sb_breaking_height(number, p.depth);
-    sb_wave_train *train = train_of(&p);
-    assert_near(train->part[0].amplitude, 0.5 * p.height, 1e-12);
-    sb_wave_train_destroy(train);
-    assert_non_null(strstr(p.kind->warning(&p), "no steady wave"));
-    p.height *= 0.9;
-    assert_null(p.kind->warning(&p));
-    p.height = 1e-6; /* far too long for a steady wave, and low */
-    p.period = 400;
-    assert_null(p.kind->warning(&p));
 }
 
 /* Long waves break at the height of the highest solitary wave, 0.8332 of the depth, before the 0.89 of Miche. */
@@ -461,8 +407,6 @@ int main(void)
         cmocka_unit_test(one_frequency_is_absorbed_entirely),
         cmocka_unit_test(plain_gain_reflects_as_known),
         cmocka_unit_test(regular_waves_choose_their_theory),
-        cmocka_unit_test(steep_waves_have_a_smaller_first_harmonic),
-        cmocka_unit_test(waves_that_are_not_steady_are_named),
         cmocka_unit_test(long_waves_break_below_the_highest_solitary_wave),
         cmocka_unit_test(cnoidal_piston_moves_with_the_water),
         cmocka_unit_test(irregular_waves_have_their_height_and_peak),
