@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "measure/parts.h"
 
-sb_footprint sb_footprint_of(const sb_model *model, size_t body)
+static sb_footprint footprint_of_one(const sb_model *model, size_t body)
 {
     const sb_model_body *of = &model->bodies[body];
     sb_footprint footprint = {{0, 0, 0}, {0, 0, 0}};
@@ -18,6 +18,16 @@ sb_footprint sb_footprint_of(const sb_model *model, size_t body)
         footprint.max = i == of->begin ? p : sb_max(footprint.max, p);
     }
     return footprint;
+}
+
+sb_footprint sb_footprint_of(const sb_model *model, size_t body)
+{
+    sb_footprint all = footprint_of_one(model, body);
+    for (size_t b = body + 1; b < body + model->bodies[body].plates; b++) {
+        const sb_footprint one = footprint_of_one(model, b);
+        all = (sb_footprint){sb_min(all.min, one.min), sb_max(all.max, one.max)};
+    }
+    return all;
 }
 
 /* Columns of the strip are as wide as this, in spacings. */

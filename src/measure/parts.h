@@ -97,7 +97,7 @@ size_t sb_map_bytes(const sb_map_field *map);
 void sb_map_save(const sb_map_field *map, sb_archive_out *out);
 void sb_map_load(sb_map_field *map, sb_archive_in *in);
 
-/* Plan rectangle of a body's boundary particles at t = 0 (m). */
+/* Plan rectangle of the boundary particles of a body, of a paddle those of all its plates, at t = 0 (m). */
 typedef struct sb_footprint {
     sb_vec3 min, max;
 } sb_footprint;

@@ -11,14 +11,10 @@ static double ratio(double a, double b)
 }
 
 /* The box around the body at t = 0. */
-static void put_box(sb_json *json, const sb_mesh *mesh)
+static void put_box(sb_json *json, const sb_model *model, size_t body)
 {
-    if (mesh->vertex_count == 0) return;
-    sb_vec3 min = mesh->vertices[0], max = min;
-    for (size_t i = 1; i < mesh->vertex_count; i++) {
-        min = sb_min(min, mesh->vertices[i]);
-        max = sb_max(max, mesh->vertices[i]);
-    }
+    sb_vec3 min, max;
+    if (!sb_model_box(model, body, &min, &max)) return;
     sb_json_vector(json, "min_m", min);
     sb_json_vector(json, "max_m", max);
 }
@@ -37,7 +33,7 @@ static void put_bodies(sb_json *json, const sb_summary *summary)
         sb_json_vector(json, "impulse_vector_Ns", body->impulse);
         sb_json_vector(json, "moment_impulse_Nms", body->moment);
         sb_json_vector(json, "moment_point_m", summary->model->bodies[b].moment_point);
-        put_box(json, &summary->model->bodies[b].mesh);
+        put_box(json, summary->model, b);
         sb_trust_put(json, &summary->model->bodies[b], body);
         sb_json_close(json);
     }

@@ -66,13 +66,8 @@ sb_status sb_cameras_check(const sb_scene *scene, const sb_model *model, sb_erro
 /* Finds the box of a body at the frame's time. */
 static void find_box(const sb_model *model, size_t body, const sb_frame *frame, sb_vec3 *low, sb_vec3 *high)
 {
-    const sb_mesh *mesh = &model->bodies[body].mesh;
     const sb_vec3 moved = body < frame->body_count ? frame->bodies[body].displacement : sb_vec(0, 0, 0);
-    *low = *high = mesh->vertices[0];
-    for (size_t v = 1; v < mesh->vertex_count; v++) {
-        *low = sb_min(*low, mesh->vertices[v]);
-        *high = sb_max(*high, mesh->vertices[v]);
-    }
+    if (!sb_model_box(model, body, low, high)) *low = *high = sb_vec(0, 0, 0);
     *low = sb_add(*low, moved);
     *high = sb_add(*high, moved);
 }

@@ -12,13 +12,13 @@ static const float terrain_color[3] = {0.60F, 0.54F, 0.42F};
 static const float moving_color[3] = {0.80F, 0.52F, 0.25F};
 
 /* Returns the index of the wave maker that moves the part by its own name, or else of the one that moves the whole
-   body of the scene; -1: none. */
-static int find_wavemaker(const sb_scene *scene, const char *body, const char *part)
+   body of the scene; -1: none. Plates of a paddle have no names of their own. */
+static int find_wavemaker(const sb_scene *scene, const sb_body *body, const char *part)
 {
     int whole = -1;
     for (size_t i = 0; i < scene->wavemaker_count; ++i) {
-        if (!strcmp(scene->wavemakers[i].body, part)) return (int)i;
-        if (whole < 0 && !strcmp(scene->wavemakers[i].body, body)) whole = (int)i;
+        if (body->split && !strcmp(scene->wavemakers[i].body, part)) return (int)i;
+        if (whole < 0 && !strcmp(scene->wavemakers[i].body, body->name)) whole = (int)i;
     }
     return whole;
 }
@@ -63,7 +63,7 @@ static void describe(const sb_scene *scene, const sb_body *from, sb_model_body *
     body->source = (size_t)(from - scene->bodies);
     body->role = from->role;
     body->report = from->report;
-    body->wavemaker = find_wavemaker(scene, from->name, body->name);
+    body->wavemaker = find_wavemaker(scene, from, body->name);
     body->moment_point = from->has_moment_point ? from->moment_point : footprint_center(&body->mesh, scene->dimensions);
     const float *color = from->role == SB_ROLE_TERRAIN ? terrain_color
                          : body->wavemaker >= 0        ? moving_color
@@ -120,6 +120,19 @@ static sb_status check_name(const sb_scene *scene, const sb_body *from, const ch
                 "body \"%s\": %.200s has a part named \"%s\", which is also the name of another body of the scene: "
                 "expected different names",
                 from->name, from->file ? from->file : "it", part);
+    return SB_OK;
+}
+
+/* Plates are named "paddle", "paddle-2", ..., by choose_name. */
+static sb_status check_plate_name(const sb_scene *scene, const sb_body *from, size_t plate, sb_error *error)
+{
+    char name[SB_NAME_MAX + 24];
+    snprintf(name, sizeof name, "%s-%zu", from->name, plate + 1);
+    for (size_t i = 0; i < scene->body_count && plate > 0; ++i)
+        if (!strcmp(scene->bodies[i].name, name))
+            return sb_fail(error, SB_BAD_INPUT,
+                           "%.300s: body \"%s\": plate %zu of the paddle \"%s\" has this name, expected another name",
+                           scene->path ? scene->path : "the scene", name, plate + 1, from->name);
     return SB_OK;
 }
 
@@ -180,7 +193,7 @@ static sb_status add_meshes(const sb_scene *scene, const sb_body *from, const sb
 static sb_status add_parts(const sb_scene *scene, const sb_body *from, sb_model *model, size_t *capacity,
                            sb_error *error)
 {
-    const int maker = find_wavemaker(scene, from->name, from->name);
+    const int maker = find_wavemaker(scene, from, from->name);
     sb_plate_row row = {0};
     if (maker < 0 || sb_scene_plates(scene, &scene->wavemakers[maker], &row) == 0)
         return add_meshes(scene, from, from, model, capacity, error);
@@ -188,7 +201,8 @@ static sb_status add_parts(const sb_scene *scene, const sb_body *from, sb_model 
     sb_status status = SB_OK;
     for (size_t k = 0; k < row.count && status == SB_OK; ++k) {
         const sb_body part = sb_model_plate(from, &row, k);
-        status = add_meshes(scene, from, &part, model, capacity, error);
+        status = check_plate_name(scene, from, k, error);
+        if (status == SB_OK) status = add_meshes(scene, from, &part, model, capacity, error);
     }
     sb_vec3 middle = sb_add(sb_scale(sb_add(from->min, from->max), 0.5), from->translate);
     middle.z = from->min.z + from->translate.z;

@@ -118,6 +118,23 @@ double sb_model_start_speed(const sb_model *model);
 /* plates.c: the index of the body that has a body's forces: of a push-plate the first plate, otherwise the body. */
 size_t sb_model_whole(const sb_model *model, size_t body);
 
+/* Sets the box around a body at t = 0, of the first plate of a paddle that around all of its plates. Returns false if
+   it has no mesh. */
+static inline bool sb_model_box(const sb_model *model, size_t body, sb_vec3 *low, sb_vec3 *high)
+{
+    const size_t plates = model->bodies[body].plates, end = body + (plates > 0 ? plates : 1);
+    const bool whole = model->bodies[body].plate == 0;
+    bool found = false;
+    for (size_t b = body; b < (whole ? end : body + 1); b++)
+        for (size_t v = 0; v < model->bodies[b].mesh.vertex_count; v++) {
+            const sb_vec3 at = model->bodies[b].mesh.vertices[v];
+            *low = found ? sb_min(*low, at) : at;
+            *high = found ? sb_max(*high, at) : at;
+            found = true;
+        }
+    return found;
+}
+
 /* sea.c: half of the length (m) over which water of this depth is averaged inside of a strip of given water. */
 double sb_model_sea_reach(const sb_model *model, double depth);
 /* The place at these distances (m) from a side and along it, with z = 0. */

@@ -99,6 +99,21 @@ int sb_absorbers_measure(sb_sim *sim)
     return 0;
 }
 
+double sb_absorber_raised(const sb_sim *sim, const sb_moving_body *moving, double from, double to)
+{
+    enum { PLACES = 16 };
+    const sb_absorber *a = moving->absorber;
+    const sb_initial_wave *wave = &sim->scene->wave;
+    const double ahead = a->face + moving->displacement + a->distance;
+    double sum = 0;
+    if (wave->kind == SB_INITIAL_NONE) return 0;
+    for (int i = 0; i < PLACES; i++) {
+        const double x = ahead * moving->direction.x + (from + (to - from) * (i + 0.5) / PLACES) * a->side[0];
+        sum += sb_initial_elevation(wave, sim->scene->fluid.gravity, x - wave->position);
+    }
+    return sum / PLACES;
+}
+
 /* The mean over whole periods, which the displacement by returning waves does not change. */
 static void note_drift(sb_absorber *a, double dt)
 {
@@ -116,7 +131,7 @@ double sb_absorber_advance(sb_sim *sim, sb_moving_body *moving)
 {
     sb_absorber *a = moving->absorber;
     const double dt = sim->state.time_step, law = moving->displacement - a->state.offset;
-    if (!a->known) a->still = a->depth;
+    if (!a->known) a->still = a->depth - sb_absorber_raised(sim, moving, a->from[0], a->from[1]);
     a->known = true;
     if (a->plates > 0 && a->still == 0) return a->state.offset; /* a plate before land stays at its law */
     const sb_absorbing_input input = {

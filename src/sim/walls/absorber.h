@@ -17,7 +17,8 @@ typedef struct sb_absorber {
     /* state */
     bool known;   /* the column at rest is */
     bool drifted; /* ten whole periods have passed */
-    double still; /* m, depth of the water beside it at the start, by its particles; 0: a plate before land */
+    double still; /* m, depth of the water beside it at rest: that at the start by its particles, less the initial wave;
+                     0: a plate before land */
     sb_absorbing_state state; /* its displacement from the law, and the filter's values */
     double farthest;          /* m, largest displacement from the law */
     uint64_t limited;         /* steps in which reach stopped it */
@@ -30,6 +31,9 @@ sb_status sb_absorber_create(sb_sim *sim, size_t body, sb_moving_body *moving, s
 /* Sets the depths beside the absorbing paddles, after all displacements have been set. Returns 0, or -1 without
    memory. */
 int sb_absorbers_measure(sb_sim *sim);
+/* Elevation of the scene's initial wave at the place where the water of a part of the face is measured, m: the mean
+   from `from` to `to` along the face. */
+double sb_absorber_raised(const sb_sim *sim, const sb_moving_body *moving, double from, double to);
 /* Returns the offset at the end of the step. */
 double sb_absorber_advance(sb_sim *sim, sb_moving_body *moving);
 

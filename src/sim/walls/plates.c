@@ -40,7 +40,8 @@ static void add(const sb_moving_body *moving, sb_vec3 at, double width, bool rep
     if (repeats) u -= n * floor(u / n); /* water may have passed a periodic side within the step */
     if (!(u >= 0 && u <= n)) return;
     const long middle = (long)fmin(floor(u), n - 1), count = (long)a->plates;
-    for (long k = middle - 1; k <= middle + 1; k++) {
+    const long near = repeats && count < 3 ? count : 3; /* each plate once */
+    for (long k = middle - 1; k < middle - 1 + near; k++) {
         if (!repeats && (k < 0 || k >= count)) continue;
         const size_t plate = (size_t)((k + count) % count);
         const sb_moving_body *one = &moving[plate];
@@ -51,11 +52,12 @@ static void add(const sb_moving_body *moving, sb_vec3 at, double width, bool rep
 }
 
 /* Depths of the still water before the plates of a row, which are known at the start. A plate with less than a layer of
-   water faces land. Still water has its own depth before each plate, over any bed; other water may stand higher before
-   one than before another, and all then have the mean depth of those with water. */
+   water faces land. Still water has its own depth before each plate, over any bed, and an initial wave is known; boxes
+   of water may stand higher before one plate than before another, and all then have the mean depth of those with
+   water. */
 static void note_still(const sb_sim *sim, sb_moving_body *row, size_t count)
 {
-    const bool still = sb_scene_starts_still(sim->scene);
+    const bool still = sim->scene->box_count == 0;
     double sum = 0;
     size_t wet = 0;
     if (row->absorber->known) return;
@@ -67,7 +69,9 @@ static void note_still(const sb_sim *sim, sb_moving_body *row, size_t count)
     for (size_t k = 0; k < count; k++) {
         sb_absorber *a = row[k].absorber;
         const bool water = a->depth >= sim->model->spacing;
-        a->still = !water ? 0 : still ? a->depth : sum / (double)wet;
+        const double pitch = (a->from[1] - a->from[0]) / (double)count, from = a->from[0] + (double)k * pitch;
+        const double own = a->depth - sb_absorber_raised(sim, &row[k], from, from + pitch);
+        a->still = !water ? 0 : still ? own : sum / (double)wet;
         a->known = true;
     }
 }
@@ -77,7 +81,7 @@ int sb_plates_measure(sb_sim *sim, sb_moving_body *moving)
     const sb_absorber *a = moving->absorber;
     const size_t count = a->plates, n = sim->state.n;
     const double width = 0.5 * a->distance, pitch = (a->from[1] - a->from[0]) / (double)count;
-    const bool repeats = sb_absorber_repeats(sim->scene, a) && count > 2;
+    const bool repeats = sb_absorber_repeats(sim->scene, a) && count > 1;
     sb_exact *sums = sb_alloc(count, sizeof *sums);
     bool enough = sums != NULL;
 #pragma omp parallel reduction(&& : enough)

@@ -177,6 +177,102 @@ static void a_paddle_reads_its_depth(void **state)
     box = whole_box;
 }
 
+/* A row of two repeats as well: each plate is the other's neighbour on both sides. */
+static void two_plates_repeat(void **state)
+{
+    (void)state;
+    const char *const sides[] = {"", ", sides: {y_min: periodic, y_max: periodic}"};
+    double apart[2];
+    for (int k = 0; k < 2; k++) {
+        basin b;
+        make(&b, sides[k], ", plates: {width: 0.8}", "images");
+        assert_int_equal(b.sim->walls.moving[0].absorber->plates, 2);
+        assert_int_equal(tank_steps(b.sim, 1), 0);
+        const double one = b.sim->walls.moving[0].absorber->depth, other = b.sim->walls.moving[1].absorber->depth;
+        assert_near(0.5 * (one + other), 0.6, 0.006);
+        apart[k] = one - other;
+        free_basin(&b);
+    }
+    /* The window is a B-spline two plates wide, of which 1/24 is beyond each end of its plate. */
+    printf("depths apart by %.4g m between walls, %.4g m between periodic sides\n", apart[0], apart[1]);
+    assert_near(apart[1] / apart[0], (1 - 4.0 / 24) / (1 - 2.0 / 24), 0.02);
+}
+
+/* The initial wave is no wave that has come in: a paddle at the crest of a standing wave lets the water rest at its
+   level, with one face and in plates. */
+static void initial_waves_are_known(void **state)
+{
+    (void)state;
+    const char *const plates[] = {"", ", plates: {width: 0.4}"};
+    for (int k = 0; k < 2; k++) {
+        const char *path = SB_BINARY_DIR "/crest.yaml";
+        FILE *file = fopen(path, "w");
+        assert_non_null(file);
+        fprintf(file,
+                "resolution: 0.04\nduration: 3\ndomain: {min: [-0.7, 0, 0], max: [2, 0.8, 1]}\n"
+                "water: {level: 0.5, seed: [0.5, 0.3, 0.2], wave: {kind: standing, height: 0.05, wavelength: 4, depth: "
+                "0.5, position: 0}}\n"
+                "bodies:\n  - {name: paddle, shape: box, min: [-0.5, 0, 0], max: [0, 0.8, 0.9]}\n"
+                "wavemakers:\n  - {name: taker, body: paddle, kind: absorber, depth: 0.5, period: 2%s}\n",
+                plates[k]);
+        assert_int_equal(fclose(file), 0);
+        basin b = {0};
+        sb_error error = {0};
+        if (sb_scene_read(path, NULL, NULL, 0, &b.scene, &error) != SB_OK) fail_msg("%s", error.text);
+        if (sb_model_build(&b.scene, &b.model, &error) != SB_OK) fail_msg("%s", error.text);
+        if (sb_sim_create(&b.scene, &b.model, NULL, &b.sim, &error) != SB_OK) fail_msg("%s", error.text);
+        assert_int_equal(tank_steps(b.sim, 2), 0);
+        const sb_absorber *a = b.sim->walls.moving[0].absorber;
+        printf("depth at the crest %.4g m, at rest %.4g m\n", a->depth, a->still);
+        assert_true(a->depth > 0.53);
+        assert_near(a->still, 0.5, 0.006);
+        free_basin(&b);
+    }
+}
+
+/* A body of the scene with the name of a plate would take its place in the tables. */
+static void plates_have_their_names_alone(void **state)
+{
+    (void)state;
+    const char *path = SB_BINARY_DIR "/names.yaml";
+    for (int second = 2; second <= 3; second++) {
+        FILE *file = fopen(path, "w");
+        assert_non_null(file);
+        fprintf(file,
+                "resolution: 0.1\nduration: 3\ndomain: {min: [-0.7, 0, 0], max: [3, 0.8, 1]}\n"
+                "water: {level: 0.5, seed: [0.5, 0.3, 0.2]}\nbodies:\n"
+                "  - {name: paddle-%d, shape: box, min: [2.5, 0, 0], max: [3, 0.8, 0.9]}\n"
+                "  - {name: paddle, shape: box, min: [-0.5, 0, 0], max: [0, 0.8, 0.9]}\n"
+                "wavemakers:\n  - {name: taker, body: paddle, kind: absorber, depth: 0.5, period: 2, plates: {width: "
+                "0.4}}\n"
+                "  - {name: other, body: paddle-%d, kind: absorber, depth: 0.5, period: 2, direction: [-1, 0, 0]}\n",
+                second, second);
+        assert_int_equal(fclose(file), 0);
+        sb_scene scene;
+        sb_model model = {0};
+        sb_error error = {0};
+        if (sb_scene_read(path, NULL, NULL, 0, &scene, &error) != SB_OK) fail_msg("%s", error.text);
+        const sb_status status = sb_model_build(&scene, &model, &error);
+        if (second == 2) {
+            assert_int_equal(status, SB_BAD_INPUT);
+            if (!strstr(error.text, "names.yaml: body \"paddle-2\": plate 2 of the paddle \"paddle\" has this name"))
+                fail_msg("%s", error.text);
+        } else { /* the paddle has two plates */
+            if (status != SB_OK) fail_msg("%s", error.text);
+            sb_vec3 low = {0}, high = {0};
+            assert_int_equal(model.bodies[0].wavemaker, 1);
+            assert_int_equal(model.bodies[2].wavemaker, 0);
+            assert_true(sb_model_box(&model, 1, &low, &high)); /* the whole paddle */
+            assert_near(low.y, 0, 1e-9);
+            assert_near(high.y, 0.8, 1e-9);
+            assert_true(sb_model_box(&model, 2, &low, &high)); /* its second plate */
+            assert_near(low.y, 0.4, 1e-9);
+        }
+        sb_model_free(&model);
+        sb_scene_free(&scene);
+    }
+}
+
 /* A row that does not end at the periodic sides has ends: the first and the last plate are no neighbours. */
 static void a_short_row_does_not_repeat(void **state)
 {
@@ -308,10 +404,17 @@ static void unfit_plates_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plates_take_waves_across),       cmocka_unit_test(plates_are_one_body),
-        cmocka_unit_test(a_paddle_reads_its_depth),       cmocka_unit_test(a_short_row_does_not_repeat),
-        cmocka_unit_test(plates_are_three_spacings_wide), cmocka_unit_test(state_is_saved_and_independent_of_threads),
-        cmocka_unit_test(unfit_plates_are_refused),       cmocka_unit_test(plates_rest_before_an_uneven_bed),
+        cmocka_unit_test(plates_take_waves_across),
+        cmocka_unit_test(plates_are_one_body),
+        cmocka_unit_test(a_paddle_reads_its_depth),
+        cmocka_unit_test(a_short_row_does_not_repeat),
+        cmocka_unit_test(plates_are_three_spacings_wide),
+        cmocka_unit_test(state_is_saved_and_independent_of_threads),
+        cmocka_unit_test(two_plates_repeat),
+        cmocka_unit_test(initial_waves_are_known),
+        cmocka_unit_test(plates_have_their_names_alone),
+        cmocka_unit_test(unfit_plates_are_refused),
+        cmocka_unit_test(plates_rest_before_an_uneven_bed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
