@@ -67,6 +67,31 @@ static void narrow_bands_follow_rayleigh(void **state)
     assert_true(h.mean < 0.68 * h.significant && h.mean > 0.58 * h.significant);
 }
 
+/* Still water before the waves moves by a thousandth of their height, and crosses its level all the time: it has no
+   waves. Of four waves one is the highest third, of five two. */
+static void noise_has_no_waves(void **state)
+{
+    (void)state;
+    for (int waves = 4; waves <= 5; waves++) {
+        size_t n = 0;
+        for (int i = 0; i < 1000; i++, n++) {
+            t[n] = 0.01 * (double)n;
+            z[n] = 1e-3 * sin(2 * M_PI * (i + 0.5) / 40);
+        }
+        for (int wave = 0; wave <= waves; wave++)
+            for (int i = 0; i < 200; i++, n++) {
+                const double height = wave == waves ? 1 : wave + 1; /* the last one has no end */
+                t[n] = 0.01 * (double)n;
+                z[n] = 0.5 * height * sin(2 * M_PI * (i + 0.5) / 200);
+            }
+        const sb_wave_heights h = heights_of(n);
+        assert_int_equal(h.count, waves);
+        assert_near(h.period, 2, 0.02);
+        assert_near(h.highest, waves, 0.02);
+        assert_near(h.significant, waves == 4 ? 4 : 4.5, 0.02);
+    }
+}
+
 static void short_series_have_no_waves(void **state)
 {
     (void)state;
@@ -84,6 +109,7 @@ int main(void)
         cmocka_unit_test(regular_waves_have_their_height_and_period),
         cmocka_unit_test(the_highest_third_is_significant),
         cmocka_unit_test(narrow_bands_follow_rayleigh),
+        cmocka_unit_test(noise_has_no_waves),
         cmocka_unit_test(short_series_have_no_waves),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
