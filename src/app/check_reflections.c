@@ -94,12 +94,36 @@ void sb_period_warning(const sb_scene *scene, const char *what, double period, s
     visit(context, text);
 }
 
+/* The waves of a set that is given against their direction are called reflected. */
+static void warn_of_order(const sb_scene *scene, const sb_reflection_set *set, sb_warning_visit *visit, void *context)
+{
+    const sb_gauge *first = &scene->measure.gauges[sb_scene_gauge(scene, set->gauges[0].name)];
+    const sb_gauge *last = &scene->measure.gauges[sb_scene_gauge(scene, set->gauges[set->gauge_count - 1].name)];
+    const sb_vec3 line = sb_vec(last->x - first->x, last->y - first->y, 0);
+    const char *against = NULL;
+    char text[300];
+    for (size_t w = 0; w < scene->wavemaker_count; w++) {
+        const sb_wavemaker_use *maker = &scene->wavemakers[w];
+        if (strcmp(maker->law.kind->name, "absorber") == 0) continue;
+        if (!(sb_dot(maker->direction, line) < -0.7 * sb_norm(line))) return;
+        against = maker->name;
+    }
+    if (!against) return;
+    snprintf(
+        text, sizeof text,
+        "measure.reflections %s: its gauges run against the waves of \"%s\", which it will call reflected; expected "
+        "the gauges in the order in which the waves come to them",
+        set->name, against);
+    visit(context, text);
+}
+
 /* Gauges near multiples of half a wavelength apart cannot tell incident from reflected waves. */
 sb_status sb_reflection_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context, sb_error *error)
 {
     for (size_t r = 0; r < scene->measure.reflection_count; r++) {
         const sb_reflection_set *set = &scene->measure.reflections[r];
         warn_of_window(scene, set, visit, context);
+        warn_of_order(scene, set, visit, context);
         char what[SB_NAME_MAX + 40];
         snprintf(what, sizeof what, "measure.reflections %s: period", set->name);
         sb_period_warning(scene, what, set->period, visit, context);

@@ -89,11 +89,34 @@ static void warn_of_reflection(const sb_scene *scene, const sb_sponge *sponge, s
     }
 }
 
+/* What a sponge takes between two gauges of a split would seem to be reflected. */
+static void warn_of_gauges(const sb_scene *scene, const sb_sponge *sponge, sb_warning_visit *visit, void *context)
+{
+    const zone z = zone_of(scene, sponge);
+    char text[400];
+    for (size_t r = 0; r < scene->measure.reflection_count; r++) {
+        const sb_reflection_set *set = &scene->measure.reflections[r];
+        for (size_t i = 0; i < set->gauge_count; i++) {
+            const sb_gauge *gauge = &scene->measure.gauges[sb_scene_gauge(scene, set->gauges[i].name)];
+            const double at = sponge->side / 2 == 0 ? gauge->x : gauge->y;
+            if (!(at > z.from + 0.05 * sponge->length && at < z.to - 0.05 * sponge->length)) continue;
+            snprintf(
+                text, sizeof text,
+                "measure.reflections %s: gauge \"%s\" is in the sponge \"%s\", from %c = %.4g to %.4g m: waves that "
+                "the sponge takes seem to be reflected; expected gauges outside of the sponge",
+                set->name, gauge->name, sponge->name, "xy"[sponge->side / 2], z.from, z.to);
+            visit(context, text);
+            break;
+        }
+    }
+}
+
 void sb_zone_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
     for (size_t s = 0; s < scene->sponge_count; s++) {
         warn_of_beginning(scene, &scene->sponges[s], visit, context);
         warn_of_reflection(scene, &scene->sponges[s], visit, context);
+        warn_of_gauges(scene, &scene->sponges[s], visit, context);
         for (size_t t = 0; t < s; t++) warn_of_overlap(scene, &scene->sponges[t], &scene->sponges[s], visit, context);
     }
 }

@@ -38,6 +38,13 @@ static group without_end(const group *g)
     return (group){g->count, g->amplitude, g->travel, g->ramp, (double)INFINITY};
 }
 
+/* Rounded up to three digits, so that the value shown is enough. */
+static double shown_above(double value)
+{
+    const double unit = value > 0 ? pow(10, floor(log10(value)) - 2) : 1;
+    return ceil(value / unit * (1 - 1e-12)) * unit;
+}
+
 /* The share of a motion without end grows with the time, and is 1 after the ramp and the longest travel. */
 static double earliest_focus(const group *g)
 {
@@ -70,8 +77,9 @@ static void warn_of_focus(const sb_wavemaker_use *maker, const group *g, sb_warn
     }
     snprintf(text, sizeof text,
              "wave maker \"%s\": its focus at %g s is too early: by their group speeds waves with %s of the crest "
-             "come %g m far by then; expected a focus of at least %.3g s, or a shorter distance",
-             maker->name, maker->law.focus, sb_per_cent(share, part), maker->law.distance, earliest_focus(&endless));
+             "come %g m far by then; expected a focus of at least %.4g s, or a shorter distance",
+             maker->name, maker->law.focus, sb_per_cent(share, part), maker->law.distance,
+             shown_above(earliest_focus(&endless)));
     visit(context, text);
 }
 
@@ -211,6 +219,24 @@ static void warn_of_way(const sb_wavemaker_use *maker, const sb_paddle *paddle, 
     visit(context, text);
 }
 
+/* An absorber knows one period, and regular waves have one. */
+static void warn_of_absorber(const sb_scene *scene, const sb_wavemaker_use *absorber, sb_warning_visit *visit,
+                             void *context)
+{
+    char text[300];
+    for (size_t w = 0; w < scene->wavemaker_count; w++) {
+        const sb_wavemaker_use *maker = &scene->wavemakers[w];
+        if (strcmp(maker->law.kind->name, "regular") != 0) continue;
+        if (fabs(absorber->law.period / maker->law.period - 1) < 0.1) continue;
+        snprintf(text, sizeof text,
+                 "wave maker \"%s\": it absorbs waves of %g s, and those of \"%s\" have %g s: it reflects more of them "
+                 "than predicted; expected period: %g",
+                 absorber->name, absorber->law.period, maker->name, maker->law.period, maker->law.period);
+        visit(context, text);
+        return;
+    }
+}
+
 sb_status sb_wave_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context, sb_error *error)
 {
     sb_status status = SB_OK;
@@ -219,6 +245,7 @@ sb_status sb_wave_warnings(const sb_scene *scene, sb_warning_visit *visit, void 
         const unsigned needs = maker->law.kind->needs;
         sb_paddle paddle = {0};
         warn_of_start(scene, maker, visit, context);
+        if (strcmp(maker->law.kind->name, "absorber") == 0) warn_of_absorber(scene, maker, visit, context);
         if (!(needs & SB_WM_TRAIN)) continue;
         status = sb_paddle_create(&maker->law, &paddle, error);
         if (status == SB_OK) warn_of_ramp(scene, maker, paddle.duration, visit, context);

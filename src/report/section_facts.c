@@ -101,15 +101,17 @@ static double two_digits(double value)
 static void put_remedy(FILE *out, const sb_report_page *page)
 {
     double *spacings = sb_alloc(page->loads->reached, sizeof *spacings);
+    const bool flat = page->run->has_scene && page->run->scene.dimensions == 2;
     const size_t count = spacings ? needed_spacings(page, spacings) : 0;
     if (count > 0)
         sb_html_put(
             out,
             " <b>What to change:</b> a finer <code>resolution</code>. By the depths of this run, about %g m resolves "
-            "the flow at half of these bodies and %g m at all of them. Half the spacing costs eight times the "
-            "particles and about sixteen times the run time; a smaller domain, or a coarse run that gives the "
+            "the flow at half of these bodies and %g m at all of them. Half the spacing costs %s times the "
+            "particles and about %s times the run time; a smaller domain, or a coarse run that gives the "
             "water for a fine one, saves most of it.",
-            two_digits(spacings[(count - 1) / 2]), two_digits(spacings[0]));
+            two_digits(spacings[(count - 1) / 2]), two_digits(spacings[0]), flat ? "four" : "eight",
+            flat ? "eight" : "sixteen");
     sb_free(spacings);
 }
 
@@ -199,6 +201,7 @@ static void put_water(FILE *out, const sb_scene *scene)
         begin(out, "Wave maker");
         sb_html_put(out, "%s: %s", maker->name, maker->law.kind ? maker->law.kind->name : "");
         if (maker->law.height > 0) sb_html_put(out, ", height %g m", maker->law.height);
+        if (maker->law.period > 0) sb_html_put(out, ", period %g s", maker->law.period);
         if (maker->law.depth > 0) sb_html_put(out, ", depth %g m", maker->law.depth);
         finish(out);
     }

@@ -205,12 +205,12 @@ static sb_status check_explicit(sb_reader *reader, const sb_yaml *map, const sb_
                                   "sides: a side of kind sea with numerics.solver wcsph, expected wall, open or "
                                   "periodic, or another solver");
     if (scene->fluid.surface_tension > 0)
-        return sb_reader_fail(reader, sb_yaml_child(map, "fluid"), "surface_tension",
-                              "%g N/m with numerics.solver wcsph, expected 0, or another solver",
+        return sb_reader_fail(reader, map, "fluid",
+                              "surface_tension: %g N/m with numerics.solver wcsph, expected 0, or another solver",
                               scene->fluid.surface_tension);
     if (scene->foam.enabled)
-        return sb_reader_fail(reader, sb_yaml_child(map, "foam"), "enabled",
-                              "true with numerics.solver wcsph, expected false, or another solver");
+        return sb_reader_fail(reader, map, "foam",
+                              "enabled: true with numerics.solver wcsph, expected false, or another solver");
     return SB_OK;
 }
 
@@ -282,17 +282,17 @@ static sb_status finish_nested(sb_reader *reader, const sb_yaml *map, sb_scene *
 static sb_status check_tension(sb_reader *reader, const sb_yaml *map, const sb_scene *scene)
 {
     if (!(scene->fluid.surface_tension > 0)) return SB_OK;
-    const sb_yaml *fluid = sb_yaml_child(map, "fluid");
     if (sb_scene_grid_alone(scene))
-        return sb_reader_fail(reader, fluid, "surface_tension",
-                              "%g N/m, but a scene with offshore alone has no particles on which it acts, expected 0",
-                              scene->fluid.surface_tension);
-    if (sb_scene_repeats(scene, 0) || sb_scene_repeats(scene, 1))
         return sb_reader_fail(
-            reader, fluid, "surface_tension",
-            "%g N/m, but domain.sides has periodic sides, at which water would end as at air, expected "
-            "wall, open or sea, or 0",
+            reader, map, "fluid",
+            "surface_tension: %g N/m, but a scene with offshore alone has no particles on which it acts, expected 0",
             scene->fluid.surface_tension);
+    if (sb_scene_repeats(scene, 0) || sb_scene_repeats(scene, 1))
+        return sb_reader_fail(reader, map, "fluid",
+                              "surface_tension: %g N/m, but domain.sides has periodic sides, at which water would end "
+                              "as at air, expected "
+                              "wall, open or sea, or 0",
+                              scene->fluid.surface_tension);
     return SB_OK;
 }
 

@@ -26,7 +26,7 @@ static const sb_key keys[] = {
     {.name = "side", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_sponge, side), .words = side_names,
      .flags = SB_KEY_REQUIRED, .doc = "Side of the domain towards which the strength grows."},
     {.name = "end", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, end), .unit = "m", SB_KEY_ANY,
-     .derived = "that of the side", .doc = "Coordinate, x or y, at which the greatest strength is reached. Beyond it the strength stays the same."},
+     .derived = "that of the side", .doc = "Coordinate, x or y, at which the greatest strength is reached. Beyond it the strength stays the same; the predicted reflection has a wall there."},
     {.name = "length", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, length), .unit = "m", .min = 0, .max = HUGE_VAL,
      .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Length in which the strength grows from 0; one wavelength or more."},
     {.name = "profile", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_sponge, profile), .words = profile_names,

@@ -257,6 +257,29 @@ static const struct {
      "such waves fade soon"},
     {FLUME("kind: irregular, height: 0.2, period: 1e6", "", ""), "wave maker \"w\": it moves ",
      "expected lower or shorter waves"},
+    {FLUME(WAVES, BEACH "length: 8, depth: 1}", ", reflections: [{name: r, gauges: [a, b, c], period: 2.3, depth: 1}]"),
+     "measure.reflections r: gauge \"c\" is in the sponge \"beach\", from x = 2 to 10 m",
+     "expected gauges outside of the sponge"},
+    {FLUME(WAVES, "", ", reflections: [{name: r, gauges: [c, b, a], period: 2.3, depth: 1}]"),
+     "measure.reflections r: its gauges run against the waves of \"w\"", "in the order in which the waves come"},
+    {TANK "domain: {min: [-1, 0], max: [4, 0.8]}\nwater: {level: 0.5, seed: [1, 0.2]}\n"
+          "bodies: [{name: paddle, shape: box, min: [-0.5, 0], max: [0, 0.7]}, "
+          "{name: far, shape: box, min: [3.5, 0], max: [4, 0.7]}]\n"
+          "wavemakers: [{name: w, body: paddle, kind: regular, height: 0.1, period: 1.5, depth: 0.5}, "
+          "{name: eater, body: far, kind: absorber, direction: [-1, 0, 0], depth: 0.5, period: 7}]\n",
+     "wave maker \"eater\": it absorbs waves of 7 s, and those of \"w\" have 1.5 s", "expected period: 1.5"},
+    {TANK "domain: {min: [-1, 0], max: [4, 0.8]}\nwater: {level: 0.5, seed: [1, 0.2]}\n"
+          "bodies: [{name: paddle, shape: box, min: [-0.5, 0], max: [0, 0.7]}]\n"
+          "wavemakers: [{name: w, body: paddle, kind: absorber, depth: 0.25, period: 2}]\n",
+     "wave maker \"w\": its depth is 0.25 m, but the water there is about 0.5 m deep",
+     "it absorbs less than predicted"},
+    {"title: t\ndimensions: 2\nresolution: 0.1\nduration: 0.02\noutput: {plots: false}\n"
+     "domain: {min: [-1, 0], max: [10, 2]}\nwater: {level: 1, seed: [2, 0.5]}\n"
+     "bodies: [{name: paddle, shape: box, min: [-0.5, 0], max: [0, 1.8]}]\n"
+     "wavemakers: [{name: w, body: paddle, depth: 1, " WAVES "}]\nmeasure: {interval: 0.01, "
+     "gauges: [{name: a, x: -0.3}, {name: b, x: 1.7}, {name: c, x: 3}], "
+     "reflections: [{name: r, gauges: [a, b, c], period: 2.3, depth: 1}]}\n",
+     "measure.reflections r: no water is at gauge \"a\" at t = 0", "expected gauges in the water"},
 };
 
 static void check_and_run_give_the_same_warnings(void **state)

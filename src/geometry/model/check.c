@@ -103,10 +103,12 @@ typedef struct checked {
     sb_model *model;
 } checked;
 
-/* Compares a depth with that of the still water within a stretch. *level: of its surface, m, if there is water. May be
-   NULL. */
-static sb_status check_depth(const checked *c, const char *what, const char *name, double depth, sb_vec3 along,
-                             double from, double to, double *level, sb_error *error)
+static const char other_wave[] = "the wave will differ from the one requested";
+
+/* Compares a depth with that of the still water within a stretch. effect: of a wrong depth. *level: of its surface, m,
+   if there is water. May be NULL. */
+static sb_status check_depth(const checked *c, const char *what, const char *name, const char *effect, double depth,
+                             sb_vec3 along, double from, double to, double *level, sb_error *error)
 {
     sb_model *model = c->model;
     stretch s = {.along = along, .from = from, .to = to};
@@ -117,10 +119,8 @@ static sb_status check_depth(const checked *c, const char *what, const char *nam
     if (level && s.found) *level = surface;
     if (there == 0) return sb_model_warn(model, error, "%s%s: no water is there at t = 0", what, name);
     if (fabs(depth - there) <= fmax(DEPTH_SLACK * model->spacing, DEPTH_SHARE * there)) return SB_OK;
-    return sb_model_warn(model, error,
-                         "%s%s: its depth is %g m, but the water there is about %.2g m deep: the wave will differ from "
-                         "the one requested",
-                         what, name, depth, there);
+    return sb_model_warn(model, error, "%s%s: its depth is %g m, but the water there is about %.2g m deep: %s", what,
+                         name, depth, there, effect);
 }
 
 /* Elevation of the crests of a wave maker, m: of a solitary wave its height. 0: it makes no waves, or they are not
@@ -165,12 +165,13 @@ static sb_status check_depths(const sb_scene *scene, const sb_model_space *space
     const double near = NEAR * model->spacing;
     sb_status status = SB_OK;
     if (wave->kind == SB_INITIAL_SOLITARY && scene->sea.present)
-        status = check_depth(&c, "water.wave", " at its crest", wave->depth, east, wave->position - near,
+        status = check_depth(&c, "water.wave", " at its crest", other_wave, wave->depth, east, wave->position - near,
                              wave->position + near, NULL, error);
     if ((wave->kind == SB_INITIAL_REGULAR || wave->kind == SB_INITIAL_COMPONENTS ||
          wave->kind == SB_INITIAL_STANDING) &&
         scene->sea.present)
-        status = check_depth(&c, "water.wave", "", wave->depth, east, model->min.x, model->max.x, NULL, error);
+        status =
+            check_depth(&c, "water.wave", "", other_wave, wave->depth, east, model->min.x, model->max.x, NULL, error);
     if (status == SB_OK && wave->kind != SB_INITIAL_NONE && scene->sea.present &&
         scene->sea.level + sb_initial_crest(wave) > scene->domain.max.z)
         status = sb_model_warn(model, error,
@@ -190,8 +191,9 @@ static sb_status check_depths(const sb_scene *scene, const sb_model_space *space
                 }
         if (maker->law.depth > 0 && isfinite(front)) {
             snprintf(name, sizeof name, " \"%s\"", maker->name);
-            status = check_depth(&c, "wave maker", name, maker->law.depth, maker->direction, front, front + near,
-                                 &level, error);
+            const bool waves = maker->law.kind->needs & SB_WM_HEIGHT || maker->law.kind->needs & SB_WM_FILE;
+            status = check_depth(&c, "wave maker", name, waves ? other_wave : "it absorbs less than predicted",
+                                 maker->law.depth, maker->direction, front, front + near, &level, error);
         }
         if (status == SB_OK && isfinite(level)) status = check_crest(&c, maker, level, top, error);
     }
@@ -254,6 +256,7 @@ static sb_status check_alone(const sb_scene *scene, const sb_model_space *space,
     if (status == SB_OK) status = sb_model_warn_ground(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_open(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_gauges(scene, space, model, error);
+    if (status == SB_OK) status = sb_model_warn_reflections(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_depths(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_records(scene, space, model, error);
     return status;

@@ -1,4 +1,5 @@
-/* Warns of gauges over still water that is too shallow to have a surface. */
+/* Warns of gauges over still water that is too shallow to have a surface, and of gauges of reflections without water.
+ */
 #include "base/memory.h"
 #include "geometry/model/parts.h"
 
@@ -84,6 +85,36 @@ static sb_status thin_depth(const sb_scene *scene, const sb_model_space *space, 
     double around = 0;
     const sb_status status = depth_around(space, model, x, y, &around, error);
     if (around < least) *thin = depth;
+    return status;
+}
+
+/* A gauge without water, such as one in a paddle or behind it, is left out of a split. */
+static sb_status warn_of_set(const sb_scene *scene, const sb_reflection_set *set, const sb_model_space *space,
+                             sb_model *model, sb_error *error)
+{
+    const double least = (scene->dimensions == 2 ? THIN_FLAT : THIN) * model->spacing;
+    for (size_t i = 0; i < set->gauge_count; ++i) {
+        const sb_gauge *gauge = &scene->measure.gauges[sb_scene_gauge(scene, set->gauges[i].name)];
+        double around = 0;
+        if (gauge->water == SB_GAUGE_GRID) continue;
+        const sb_status status =
+            depth_around(space, model, gauge->x, scene->dimensions == 2 ? 0 : gauge->y, &around, error);
+        if (status != SB_OK) return status;
+        if (around >= least) continue;
+        return sb_model_warn(model, error,
+                             "measure.reflections %s: no water is at gauge \"%s\" at t = 0, and a gauge without water "
+                             "is left out of the split; expected gauges in the water",
+                             set->name, gauge->name);
+    }
+    return SB_OK;
+}
+
+sb_status sb_model_warn_reflections(const sb_scene *scene, const sb_model_space *space, sb_model *model,
+                                    sb_error *error)
+{
+    sb_status status = SB_OK;
+    for (size_t r = 0; r < scene->measure.reflection_count && status == SB_OK; ++r)
+        status = warn_of_set(scene, &scene->measure.reflections[r], space, model, error);
     return status;
 }
 

@@ -100,11 +100,12 @@ static sb_status check_above(const sb_scene *scene, const sb_model_space *space,
         size_t body = 0;
         const double free = surface_from(model, space, at, 1, most, &body);
         if (free < most)
-            return sb_fail(error, SB_BAD_INPUT,
-                           "domain.sides.%s: body \"%s\" hangs over the given water there, at %g m near (%g, %g), and "
-                           "the highest water is at %g m; expected it above this, or %g m inside of the side",
-                           sb_side_names[side], model->bodies[body].name, level + free, at.x, at.y, highest,
-                           sea->strip);
+            return sb_fail(
+                error, SB_BAD_INPUT,
+                "%.300s: domain.sides.%s: body \"%s\" hangs over the given water there, at %g m near (%g, %g), and "
+                "the highest water is at %g m; expected it above this, or %g m inside of the side",
+                scene->path ? scene->path : "the scene", sb_side_names[side], model->bodies[body].name, level + free,
+                at.x, at.y, highest, sea->strip);
     }
     return SB_OK;
 }
@@ -118,15 +119,17 @@ static sb_status check(const sb_scene *scene, const sb_model *model, int side, d
     double lowest = (double)INFINITY;
     for (size_t c = 0; c < sea->along; c++) lowest = fmin(lowest, sea->bed[c * sea->across]);
     if (!(lowest < highest - model->spacing))
-        return sb_fail(error, SB_BAD_INPUT,
-                       "domain.sides.%s: sea, but the lowest ground there is at %g m and the highest water at %g m, "
-                       "expected at least one spacing of water",
-                       sb_side_names[side], lowest, highest);
+        return sb_fail(
+            error, SB_BAD_INPUT,
+            "%.300s: domain.sides.%s: sea, but the lowest ground there is at %g m and the highest water at %g m, "
+            "expected at least one spacing of water",
+            scene->path ? scene->path : "the scene", sb_side_names[side], lowest, highest);
     if (length < (both ? 2 : 1) * sea->width)
-        return sb_fail(error, SB_BAD_INPUT,
-                       "domain.sides.%s: sea, but the domain is %g m long there, expected at least %g m: the strip of "
-                       "given water and the water that is measured inside of it",
-                       sb_side_names[side], length, (both ? 2 : 1) * sea->width);
+        return sb_fail(
+            error, SB_BAD_INPUT,
+            "%.300s: domain.sides.%s: sea, but the domain is %g m long there, expected at least %g m: the strip of "
+            "given water and the water that is measured inside of it",
+            scene->path ? scene->path : "the scene", sb_side_names[side], length, (both ? 2 : 1) * sea->width);
     return SB_OK;
 }
 
@@ -135,8 +138,9 @@ sb_status sb_model_sea_sides(const sb_scene *scene, const sb_model_space *space,
     if (!sb_scene_has_sea(scene)) return SB_OK;
     if (!scene->sea.present)
         return sb_fail(error, SB_BAD_INPUT,
-                       "domain.sides: a side of kind sea, but no water.level: expected the level "
-                       "of the still water");
+                       "%.300s: domain.sides: a side of kind sea, but no water.level: expected the level "
+                       "of the still water",
+                       scene->path ? scene->path : "the scene");
     sb_sea_source *sea = NULL;
     sb_status status = sb_scene_nested(scene) ? sb_grid_start_fill(scene, &model->grid, error) : SB_OK;
     for (size_t w = 0; w < model->grid.told.warning_count && status == SB_OK; w++)
