@@ -1,7 +1,10 @@
 /* Regular waves: a paddle by linear theory, a piston by second-order theory [Madsen 1971; Schaeffer 1996], and a piston
-   that follows the water of a cnoidal wave [Goring 1978]. */
+   that follows the water of a cnoidal wave [Goring 1978]. The piston of second order makes the first harmonic of a
+   steady wave [Rienecker and Fenton 1981]. */
 #include "physics/paddle_second.h"
+#include "physics/paddle_third.h"
 #include "physics/regular_wave.h"
+#include "physics/steady_wave.h"
 #include "physics/wave_train.h"
 
 #include <math.h>
@@ -20,6 +23,32 @@ static sb_status find_wave(const sb_wavemaker_parameters *p, sb_regular_wave *wa
                                   error);
 }
 
+/* A steady wave of the height H has a first harmonic below H/2. Where there is none, or it is too long and low to be
+   found: H/2. */
+static double first_harmonic(const sb_regular_wave *wave)
+{
+    sb_steady_wave steady;
+    const bool found = sb_steady_wave_of(wave->height, wave->period, wave->depth, wave->gravity, &steady);
+    return found ? steady.first : 0.5 * wave->height;
+}
+
+/* The train's parts have the waves that leave, and the strokes that make them. */
+static void set_second_order(sb_wave_train *train, const sb_regular_wave *wave)
+{
+    const double omega = 2 * M_PI / wave->period, first = first_harmonic(wave);
+    const double linear = sb_paddle_third_amplitude(first, wave->number, wave->depth);
+    sb_wave_train_set(train, 0, linear, omega, 0);
+    train->part[0].amplitude = first;
+    /* s sin(2 omega t + ahead) = Re(-i s exp(i ahead) exp(2 i omega t)) */
+    const double complex second = CMPLX(0, 1) * sb_paddle_second(2 * linear, omega, wave->depth, wave->gravity);
+    train->part[1] = (sb_train_part){.omega = 2 * omega,
+                                     .stroke = cabs(second),
+                                     .ahead = carg(second),
+                                     .amplitude = wave->second * pow(2 * first / wave->height, 2),
+                                     .number = 2 * wave->number,
+                                     .bound = true};
+}
+
 static sb_status create(const sb_wavemaker_parameters *parameters, void **state, sb_error *error)
 {
     sb_regular_wave wave;
@@ -28,19 +57,8 @@ static sb_status create(const sb_wavemaker_parameters *parameters, void **state,
     const size_t parts = wave.order == SB_WAVE_CNOIDAL ? 0 : wave.order == SB_WAVE_STOKES2 ? 2 : 1;
     sb_wave_train *train = sb_wave_train_create(parameters, parts);
     if (!train) return sb_fail_memory(error, "a wave maker");
-    const double omega = 2 * M_PI / wave.period;
-    if (parts > 0) sb_wave_train_set(train, 0, 0.5 * wave.height, omega, 0);
-    if (parts > 1) {
-        /* s sin(2 omega t + ahead) = Re(-i s exp(i ahead) exp(2 i omega t)) */
-        const double complex second =
-            CMPLX(0, 1) * sb_paddle_second(wave.height, omega, wave.depth, parameters->gravity);
-        train->part[1] = (sb_train_part){.omega = 2 * omega,
-                                         .stroke = cabs(second),
-                                         .ahead = carg(second),
-                                         .amplitude = wave.second,
-                                         .number = 2 * wave.number,
-                                         .bound = true};
-    }
+    if (parts == 1) sb_wave_train_set(train, 0, 0.5 * wave.height, 2 * M_PI / wave.period, 0);
+    if (parts == 2) set_second_order(train, &wave);
     train->is_cnoidal = wave.order == SB_WAVE_CNOIDAL;
     train->cnoidal = wave.cnoidal;
     train->facts = (sb_wave_facts){.theory = theory_names[wave.order],
@@ -69,7 +87,7 @@ static const char *warning(const sb_wavemaker_parameters *parameters)
 const sb_wavemaker sb_wavemaker_regular = {
     .name = "regular",
     .summary = "piston for regular waves: linear, second order, or cnoidal",
-    .reference = "Biesel 1951; Madsen 1971; Schaeffer 1996; Goring 1978",
+    .reference = "Biesel 1951; Madsen 1971; Schaeffer 1996; Rienecker and Fenton 1981; Goring 1978",
     .needs = SB_WM_HEIGHT | SB_WM_DEPTH | SB_WM_PERIOD | SB_WM_THEORY | SB_WM_TRAIN,
     .create = create,
     .warning = warning,

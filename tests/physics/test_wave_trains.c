@@ -2,6 +2,8 @@
 #include "../check.h"
 #include "physics/dispersion.h"
 #include "physics/paddle_second.h"
+#include "physics/paddle_third.h"
+#include "physics/steady_wave.h"
 #include "physics/wave_train.h"
 
 #include <stdio.h>
@@ -133,8 +135,12 @@ static void regular_waves_choose_their_theory(void **state)
     assert_string_equal(train->facts.theory, "second-order");
     assert_near(train->ramp, 2 * p.period, 1e-12);
     const double omega = 2 * M_PI / p.period, t = 17.3;
-    const double stroke = p.height / sb_paddle_gain(SB_PADDLE_PISTON, train->facts.number, p.depth);
-    const double complex second = sb_paddle_second(p.height, omega, p.depth, p.gravity);
+    sb_steady_wave steady;
+    assert_true(sb_steady_wave_of(p.height, p.period, p.depth, p.gravity, &steady));
+    assert_near(train->part[0].amplitude, steady.first, 1e-12);
+    const double linear = sb_paddle_third_amplitude(steady.first, train->facts.number, p.depth);
+    const double stroke = 2 * linear / sb_paddle_gain(SB_PADDLE_PISTON, train->facts.number, p.depth);
+    const double complex second = sb_paddle_second(2 * linear, omega, p.depth, p.gravity);
     const double expected = 0.5 * stroke * sin(omega * t) + creal(second * cexp(CMPLX(0, 2 * omega * t)));
     assert_near(sb_wave_train_displacement(train, t), expected, 1e-12);
     sb_wave_train_destroy(train);
