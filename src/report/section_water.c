@@ -121,6 +121,7 @@ void sb_section_water(FILE *out, const sb_report_page *page)
         shown_tables += page->run->tables[all[s].table].count > 0;
         put_shown(out, page, &all[s]);
     }
+    sb_section_waves(out, page);
     if (shown_tables == 0) fputs("<p class=\"note\">The run has no gauges, lines, planes or probes.</p>", out);
     fputs("</section>\n", out);
 }

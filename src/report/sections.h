@@ -29,8 +29,9 @@ enum { SB_SECTION_PICTURES_BYTES = 800000 };
 void sb_section_pictures(FILE *out, const sb_report_page *page);
 /* section_loads.c */
 void sb_section_loads(FILE *out, const sb_report_page *page);
-/* section_water.c: gauges, run-up, overtopping, probes. */
+/* section_water.c: gauges, run-up, overtopping, probes; section_waves.c: what the summary has of waves, after them. */
 void sb_section_water(FILE *out, const sb_report_page *page);
+void sb_section_waves(FILE *out, const sb_report_page *page);
 /* section_maps.c */
 void sb_section_maps(FILE *out, const sb_report_page *page);
 /* section_quality.c: how far to trust the run, in words. */

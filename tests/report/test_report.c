@@ -157,6 +157,28 @@ static void hostile_names(void **state)
     sb_free(text);
 }
 
+/* The summary's lists about waves are tables; a set's periods are summed. */
+static void waves_of_the_summary(void **state)
+{
+    (void)state;
+    make_run();
+    write_text("run/summary.json",
+               "{\"status\":\"done\",\"waves\":[{\"gauge\":\"toe<\",\"waves\":37,\"spectral_height_m\":0.23,"
+               "\"mean_period_s\":1.56}],\"reflections\":[{\"name\":\"set\",\"period_s\":2,\"incident_m\":0.1,"
+               "\"reflected_m\":0.05,\"coefficient\":0.5},{\"name\":\"set\",\"period_s\":1,\"incident_m\":0.02,"
+               "\"reflected_m\":0.01,"
+               "\"coefficient\":0.5},{\"name\":7}],"
+               "\"overtopping\":[{\"plane\":\"crest\",\"rate_m2_s\":0.0046,\"eurotop_m2_s\":0.00463}]}");
+    char *text = report_text();
+    assert_has(text, "Waves at gauges");
+    assert_has(text, "<tr><th scope=\"row\">toe&lt;</th><td>37</td><td>0.23</td>");
+    assert_has(text, "<tr><th scope=\"row\">set</th><td>2</td><td>0.1</td><td>0.05</td><td>0.5</td></tr>");
+    assert_has(text, "<tr><th scope=\"row\">set</th><td>all</td><td>0.102</td><td>0.051</td><td>0.5</td></tr>");
+    assert_has(text, "Overtopping beside EurOtop");
+    assert_has(text, "<td>0.0046</td><td>0.00463</td>");
+    sb_free(text);
+}
+
 static void a_run_that_has_not_ended(void **state)
 {
     (void)state;
@@ -318,6 +340,7 @@ int main(void)
         cmocka_unit_test(what_a_coarse_run_can_tell),
         cmocka_unit_test(film_in_the_page),
         cmocka_unit_test(hostile_names),
+        cmocka_unit_test(waves_of_the_summary),
         cmocka_unit_test(a_run_that_has_not_ended),
         cmocka_unit_test(missing_and_damaged_files),
         cmocka_unit_test(damaged_lines_are_counted),
