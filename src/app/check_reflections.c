@@ -102,9 +102,11 @@ static void warn_of_order(const sb_scene *scene, const sb_reflection_set *set, s
     const sb_vec3 line = sb_vec(last->x - first->x, last->y - first->y, 0);
     const char *against = NULL;
     char text[300];
+    if (scene->wave.kind != SB_INITIAL_NONE || sb_scene_has_sea(scene)) return; /* other waves */
     for (size_t w = 0; w < scene->wavemaker_count; w++) {
         const sb_wavemaker_use *maker = &scene->wavemakers[w];
-        if (strcmp(maker->law.kind->name, "absorber") == 0) continue;
+        const bool waves = maker->law.kind->needs & (SB_WM_HEIGHT | SB_WM_TRAIN);
+        if (!waves || strcmp(maker->law.kind->name, "absorber") == 0) continue;
         if (!(sb_dot(maker->direction, line) < -0.7 * sb_norm(line))) return;
         against = maker->name;
     }

@@ -223,18 +223,21 @@ static void warn_of_way(const sb_wavemaker_use *maker, const sb_paddle *paddle, 
 static void warn_of_absorber(const sb_scene *scene, const sb_wavemaker_use *absorber, sb_warning_visit *visit,
                              void *context)
 {
+    const sb_wavemaker_use *other = NULL;
     char text[300];
     for (size_t w = 0; w < scene->wavemaker_count; w++) {
         const sb_wavemaker_use *maker = &scene->wavemakers[w];
         if (strcmp(maker->law.kind->name, "regular") != 0) continue;
-        if (fabs(absorber->law.period / maker->law.period - 1) < 0.1) continue;
-        snprintf(text, sizeof text,
-                 "wave maker \"%s\": it absorbs waves of %g s, and those of \"%s\" have %g s: it reflects more of them "
-                 "than predicted; expected period: %g",
-                 absorber->name, absorber->law.period, maker->name, maker->law.period, maker->law.period);
-        visit(context, text);
-        return;
+        if (fabs(absorber->law.period / maker->law.period - 1) < 0.1) return;
+        other = maker;
     }
+    if (!other) return;
+    snprintf(
+        text, sizeof text,
+        "wave maker \"%s\": it absorbs waves of %g s, and those of \"%s\" have %g s: it reflects more of them than "
+        "predicted; expected period: %g",
+        absorber->name, absorber->law.period, other->name, other->law.period, other->law.period);
+    visit(context, text);
 }
 
 sb_status sb_wave_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context, sb_error *error)

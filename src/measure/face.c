@@ -23,7 +23,8 @@ static sb_footprint footprint_of_one(const sb_model *model, size_t body)
 sb_footprint sb_footprint_of(const sb_model *model, size_t body)
 {
     sb_footprint all = footprint_of_one(model, body);
-    for (size_t b = body + 1; b < body + model->bodies[body].plates; b++) {
+    const size_t plates = model->bodies[body].plate == 0 ? model->bodies[body].plates : 0;
+    for (size_t b = body + 1; b < body + plates; b++) {
         const sb_footprint one = footprint_of_one(model, b);
         all = (sb_footprint){sb_min(all.min, one.min), sb_max(all.max, one.max)};
     }

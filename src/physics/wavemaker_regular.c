@@ -23,28 +23,30 @@ static sb_status find_wave(const sb_wavemaker_parameters *p, sb_regular_wave *wa
                                   error);
 }
 
-/* A steady wave of the height H has a first harmonic below H/2. Where there is none, or it is too long and low to be
-   found: H/2. */
-static double first_harmonic(const sb_regular_wave *wave)
+/* kd beyond which water is deep for a steady wave, too. */
+static const double DEEP = 10;
+
+/* A steady wave of the height H has a first harmonic below H/2. Returns the amplitude of linear theory for which the
+   piston makes it; where there is no steady wave, or it is too long and low to be found: H/2. */
+static double linear_amplitude(const sb_regular_wave *wave, bool *steep)
 {
+    const double depth = fmin(wave->depth, DEEP / wave->number);
     sb_steady_wave steady;
-    const bool found = sb_steady_wave_of(wave->height, wave->period, wave->depth, wave->gravity, &steady);
-    return found ? steady.first : 0.5 * wave->height;
+    const bool found = sb_steady_wave_of(wave->height, wave->period, depth, wave->gravity, &steady);
+    if (!found) return 0.5 * wave->height;
+    return sb_paddle_third_amplitude(steady.first, wave->number, wave->depth, steep);
 }
 
-/* The train's parts have the waves that leave, and the strokes that make them. */
 static void set_second_order(sb_wave_train *train, const sb_regular_wave *wave)
 {
-    const double omega = 2 * M_PI / wave->period, first = first_harmonic(wave);
-    const double linear = sb_paddle_third_amplitude(first, wave->number, wave->depth);
+    const double omega = 2 * M_PI / wave->period, linear = linear_amplitude(wave, NULL);
     sb_wave_train_set(train, 0, linear, omega, 0);
-    train->part[0].amplitude = first;
     /* s sin(2 omega t + ahead) = Re(-i s exp(i ahead) exp(2 i omega t)) */
     const double complex second = CMPLX(0, 1) * sb_paddle_second(2 * linear, omega, wave->depth, wave->gravity);
     train->part[1] = (sb_train_part){.omega = 2 * omega,
                                      .stroke = cabs(second),
                                      .ahead = carg(second),
-                                     .amplitude = wave->second * pow(2 * first / wave->height, 2),
+                                     .amplitude = wave->second * pow(2 * linear / wave->height, 2),
                                      .number = 2 * wave->number,
                                      .bound = true};
 }
@@ -75,7 +77,14 @@ static sb_status create(const sb_wavemaker_parameters *parameters, void **state,
 static const char *warning(const sb_wavemaker_parameters *parameters)
 {
     sb_regular_wave wave;
-    if (find_wave(parameters, &wave, NULL) != SB_OK || wave.order != SB_WAVE_LINEAR) return NULL;
+    if (find_wave(parameters, &wave, NULL) != SB_OK || wave.order == SB_WAVE_CNOIDAL) return NULL;
+    if (wave.order == SB_WAVE_STOKES2) {
+        bool steep = false;
+        linear_amplitude(&wave, &steep);
+        return steep ? "so steep that the waves may break at the paddle, or come out several per cent too low; a lower "
+                       "height is made within 3 per cent"
+                     : NULL;
+    }
     if (wave.ursell < SB_URSELL_LIMIT) return NULL;
     return parameters->motion == SB_PADDLE_FLAP
                ? "linear theory, but H L^2/d^3 is above 26.3: free waves of twice the frequency will come with the "

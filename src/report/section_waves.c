@@ -1,6 +1,7 @@
 /* Waves at gauges, their reflection, and overtopping beside EurOtop: tables of the summary's lists. */
 #include "report/sections.h"
 
+#include "physics/reflection.h"
 #include "report/html.h"
 
 #include <math.h>
@@ -37,7 +38,7 @@ static const shown all[] = {
       {"eurotop_m2_s", "EurOtop, m³/s per m"},
       {"freeboard_m", "Freeboard, m"},
       {"height_m", "Hm0, m"},
-      {"from_s", "from, s"}}},
+      {"from_s", "From, s"}}},
 };
 
 static double number_of(const json_t *item, const char *key)
@@ -94,6 +95,7 @@ static size_t put_set(FILE *out, const json_t *list, size_t from)
         const json_t *item = json_array_get(list, end);
         const char *its = name_of(item, "name");
         if (!name || !its || strcmp(name, its) != 0) break;
+        if (number_of(item, "separation") < SB_SEPARATION_TRUSTED) continue;
         incident += pow(number_of(item, "incident_m"), 2);
         reflected += pow(number_of(item, "reflected_m"), 2);
     }
@@ -111,8 +113,8 @@ static size_t put_set(FILE *out, const json_t *list, size_t from)
 static void put_reflections(FILE *out, const json_t *list)
 {
     begin(out, "Reflection",
-          "Amplitudes of the waves that come and of those that go back. All: roots of the sums of squares; Hm0 is 2.83 "
-          "times that. Single periods are shown of sets with up to ten.",
+          "Amplitudes of the waves that come and of those that go back. All: roots of the sums of squares, of the "
+          "periods at which the gauges can tell both apart. Single periods are shown of sets with up to ten.",
           "Gauges");
     fputs("<th>Period, s</th><th>Incident, m</th><th>Reflected, m</th><th>Reflected over incident</th></tr></thead>"
           "<tbody>\n",

@@ -79,7 +79,7 @@ static const sb_key component_keys[] = {
      .doc = "Wavelength, at least four particle spacings, and one that fits a domain which is periodic in x a whole number "
             "of times."},
     {.name = "phase", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_component, phase), .unit = "deg", SB_KEY_ANY,
-     .fallback = "0", .doc = "Phase of direction k (x - position) at t = 0; 0: a crest."},
+     .fallback = "0", .doc = "Phase at `position` at t = 0; 0: a crest. It is added to k (x - position), of waves towards -x to -k (x - position)."},
     {.name = "direction", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_initial_component, direction), .min = -1, .max = 1,
      .fallback = "1", .doc = "Direction of travel: 1 towards +x, -1 towards -x; 0 is an error."},
 };

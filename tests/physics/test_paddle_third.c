@@ -20,7 +20,7 @@ static double made(double kd, double height, int third, double *first)
     sb_steady_wave steady;
     assert_true(sb_steady_wave_of(height, period, 1, GRAVITY, &steady));
     *first = steady.first;
-    const double amplitude = third ? sb_paddle_third_amplitude(steady.first, kd, 1) : 0.5 * height;
+    const double amplitude = third ? sb_paddle_third_amplitude(steady.first, kd, 1, NULL) : 0.5 * height;
     const potential_tank tank = {.depth = 1,
                                  .gravity = GRAVITY,
                                  .period = period,
@@ -66,7 +66,10 @@ static void losses_are_continuous(void **state)
     }
     assert_true(last == sb_paddle_third_loss(50));
     /* low waves are linear */
-    assert_near(sb_paddle_third_amplitude(1e-5, 1, 1), 1e-5, 1e-13);
+    assert_near(sb_paddle_third_amplitude(1e-5, 1, 1, NULL), 1e-5, 1e-13);
+    bool steep;
+    assert_true(sb_paddle_third_amplitude(0.2, 1, 1, &steep) < 0.222 && !steep);
+    assert_true(sb_paddle_third_amplitude(0.3, 1, 1, &steep) < 0.365 && steep);
 }
 
 int main(void)

@@ -1,5 +1,6 @@
 /* Paddles that make waves of long duration: transfer functions against integrals, and trains against wave theory. */
 #include "../check.h"
+#include "physics/breaking.h"
 #include "physics/dispersion.h"
 #include "physics/paddle_second.h"
 #include "physics/paddle_third.h"
@@ -137,8 +138,8 @@ static void regular_waves_choose_their_theory(void **state)
     const double omega = 2 * M_PI / p.period, t = 17.3;
     sb_steady_wave steady;
     assert_true(sb_steady_wave_of(p.height, p.period, p.depth, p.gravity, &steady));
-    assert_near(train->part[0].amplitude, steady.first, 1e-12);
-    const double linear = sb_paddle_third_amplitude(steady.first, train->facts.number, p.depth);
+    const double linear = sb_paddle_third_amplitude(steady.first, train->facts.number, p.depth, NULL);
+    assert_near(train->part[0].amplitude, linear, 1e-12);
     const double stroke = 2 * linear / sb_paddle_gain(SB_PADDLE_PISTON, train->facts.number, p.depth);
     const double complex second = sb_paddle_second(2 * linear, omega, p.depth, p.gravity);
     const double expected = 0.5 * stroke * sin(omega * t) + creal(second * cexp(CMPLX(0, 2 * omega * t)));
@@ -158,6 +159,32 @@ static void regular_waves_choose_their_theory(void **state)
     p.height = 0.3;
     assert_int_equal(p.kind->create(&p, &none, &error), SB_BAD_INPUT);
     assert_non_null(strstr(error.text, "breaks"));
+}
+
+/* The motion goes on from heights with a steady wave to those without, to deep water and to the breaking height. */
+static void steep_waves_are_told(void **state)
+{
+    (void)state;
+    const double depths[] = {0.9, 1.2, 2, 5, 40, 90};
+    for (size_t d = 0; d < 6; d++) {
+        sb_wavemaker_parameters p = parameters_of("regular");
+        p.depth = 1;
+        p.theory = SB_WAVE_STOKES2;
+        p.period = 2 * M_PI / sqrt(GRAVITY * depths[d] * tanh(depths[d]));
+        const double most = sb_breaking_height(depths[d], 1);
+        const double valid = SB_URSELL_LIMIT * pow(depths[d] / (2 * M_PI), 2);
+        bool told = false;
+        for (double share = 0.05; share < 1; share += 0.05) {
+            p.height = share * fmin(most, valid);
+            sb_wave_train *train = train_of(&p);
+            const double factor = train->part[0].amplitude / (0.5 * p.height);
+            if (!(factor > 0.85 && factor < 1.22)) fail_msg("kd %g, share %g: %g", depths[d], share, factor);
+            told = p.kind->warning(&p) != NULL;
+            assert_true(share < 0.5 ? !told : true);
+            sb_wave_train_destroy(train);
+        }
+        assert_true(told || depths[d] < 3);
+    }
 }
 
 /* Long waves break at the height of the highest solitary wave, 0.8332 of the depth, before the 0.89 of Miche. */
@@ -413,6 +440,7 @@ int main(void)
         cmocka_unit_test(one_frequency_is_absorbed_entirely),
         cmocka_unit_test(plain_gain_reflects_as_known),
         cmocka_unit_test(regular_waves_choose_their_theory),
+        cmocka_unit_test(steep_waves_are_told),
         cmocka_unit_test(long_waves_break_below_the_highest_solitary_wave),
         cmocka_unit_test(cnoidal_piston_moves_with_the_water),
         cmocka_unit_test(irregular_waves_have_their_height_and_peak),

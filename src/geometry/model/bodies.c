@@ -12,7 +12,7 @@ static const float terrain_color[3] = {0.60F, 0.54F, 0.42F};
 static const float moving_color[3] = {0.80F, 0.52F, 0.25F};
 
 /* Returns the index of the wave maker that moves the part by its own name, or else of the one that moves the whole
-   body of the scene; -1: none. Plates of a paddle have no names of their own. */
+   body of the scene; -1: none. A wave maker moves a paddle, not its plates. */
 static int find_wavemaker(const sb_scene *scene, const sb_body *body, const char *part)
 {
     int whole = -1;
@@ -131,7 +131,7 @@ static sb_status check_plate_name(const sb_scene *scene, const sb_body *from, si
     for (size_t i = 0; i < scene->body_count && plate > 0; ++i)
         if (!strcmp(scene->bodies[i].name, name))
             return sb_fail(error, SB_BAD_INPUT,
-                           "%.300s: body \"%s\": plate %zu of the paddle \"%s\" has this name, expected another name",
+                           "%.300s: body \"%s\": part %zu of the paddle \"%s\" has this name, expected another name",
                            scene->path ? scene->path : "the scene", name, plate + 1, from->name);
     return SB_OK;
 }

@@ -96,7 +96,7 @@ static sb_status warn_of_set(const sb_scene *scene, const sb_reflection_set *set
     for (size_t i = 0; i < set->gauge_count; ++i) {
         const sb_gauge *gauge = &scene->measure.gauges[sb_scene_gauge(scene, set->gauges[i].name)];
         double around = 0;
-        if (gauge->water == SB_GAUGE_GRID) continue;
+        if (gauge->water == SB_GAUGE_GRID || model->shallow[gauge - scene->measure.gauges]) continue;
         const sb_status status =
             depth_around(space, model, gauge->x, scene->dimensions == 2 ? 0 : gauge->y, &around, error);
         if (status != SB_OK) return status;

@@ -10,6 +10,9 @@
 /* Periods over which the drift is a mean. */
 static const double DRIFT_PERIODS = 10;
 
+/* Along a face, at which its water at the start is looked up. */
+enum { PLACES = 16 };
+
 bool sb_absorber_repeats(const sb_scene *scene, const sb_absorber *a)
 {
     for (int axis = 0; axis < 2; axis++) {
@@ -99,16 +102,43 @@ int sb_absorbers_measure(sb_sim *sim)
     return 0;
 }
 
+/* Whether a box of water is at a place. */
+static bool boxed(const sb_scene *scene, double x, double y)
+{
+    for (size_t i = 0; i < scene->box_count; i++) {
+        const sb_fluid_box *box = &scene->boxes[i];
+        const bool along = x >= box->min.x && x <= box->max.x;
+        if (along && (scene->dimensions == 2 || (y >= box->min.y && y <= box->max.y))) return true;
+    }
+    return false;
+}
+
+bool sb_absorber_boxed(const sb_sim *sim, const sb_moving_body *moving)
+{
+    const sb_absorber *a = moving->absorber;
+    const double ahead = a->face + moving->displacement + a->distance;
+    bool any = false;
+    for (int i = 0; i < PLACES; i++) {
+        const double along = a->from[0] + (a->from[1] - a->from[0]) * (i + 0.5) / PLACES;
+        any |= boxed(sim->scene, ahead * moving->direction.x + along * a->side[0],
+                     ahead * moving->direction.y + along * a->side[1]);
+    }
+    return any;
+}
+
 double sb_absorber_raised(const sb_sim *sim, const sb_moving_body *moving, double from, double to)
 {
-    enum { PLACES = 16 };
     const sb_absorber *a = moving->absorber;
     const sb_initial_wave *wave = &sim->scene->wave;
     const double ahead = a->face + moving->displacement + a->distance;
     double sum = 0;
     if (wave->kind == SB_INITIAL_NONE) return 0;
     for (int i = 0; i < PLACES; i++) {
-        const double x = ahead * moving->direction.x + (from + (to - from) * (i + 0.5) / PLACES) * a->side[0];
+        const double along = from + (to - from) * (i + 0.5) / PLACES;
+        const double x = ahead * moving->direction.x + along * a->side[0];
+        const double y = ahead * moving->direction.y + along * a->side[1];
+        /* beside a sea, boxes of water have no wave */
+        if (sim->scene->sea.present && boxed(sim->scene, x, y)) continue;
         sum += sb_initial_elevation(wave, sim->scene->fluid.gravity, x - wave->position);
     }
     return sum / PLACES;

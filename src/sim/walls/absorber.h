@@ -31,6 +31,8 @@ sb_status sb_absorber_create(sb_sim *sim, size_t body, sb_moving_body *moving, s
 /* Sets the depths beside the absorbing paddles, after all displacements have been set. Returns 0, or -1 without
    memory. */
 int sb_absorbers_measure(sb_sim *sim);
+/* Whether a box of water (water.boxes) is before the face. */
+bool sb_absorber_boxed(const sb_sim *sim, const sb_moving_body *moving);
 /* Elevation of the scene's initial wave at the place where the water of a part of the face is measured, m: the mean
    from `from` to `to` along the face. */
 double sb_absorber_raised(const sb_sim *sim, const sb_moving_body *moving, double from, double to);

@@ -57,7 +57,7 @@ static void add(const sb_moving_body *moving, sb_vec3 at, double width, bool rep
    water. */
 static void note_still(const sb_sim *sim, sb_moving_body *row, size_t count)
 {
-    const bool still = sim->scene->box_count == 0;
+    const bool still = !sb_absorber_boxed(sim, row);
     double sum = 0;
     size_t wet = 0;
     if (row->absorber->known) return;

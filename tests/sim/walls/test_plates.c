@@ -255,7 +255,7 @@ static void plates_have_their_names_alone(void **state)
         const sb_status status = sb_model_build(&scene, &model, &error);
         if (second == 2) {
             assert_int_equal(status, SB_BAD_INPUT);
-            if (!strstr(error.text, "names.yaml: body \"paddle-2\": plate 2 of the paddle \"paddle\" has this name"))
+            if (!strstr(error.text, "names.yaml: body \"paddle-2\": part 2 of the paddle \"paddle\" has this name"))
                 fail_msg("%s", error.text);
         } else { /* the paddle has two plates */
             if (status != SB_OK) fail_msg("%s", error.text);

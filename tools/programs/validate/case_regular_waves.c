@@ -166,6 +166,23 @@ static void figure_length(const sb_case_run *run, const train *w, double limit, 
     figure(figures, "wavelength", "m", steady ? wave.length : (double)NAN, p.length, limit, note);
 }
 
+/* The long wave of the start raises level and height when it comes back. */
+static void figure_height(const sb_case_run *run, const train *w, double limit, sb_figures *figures)
+{
+    const sb_gauge *gauge = &run->scene->measure.gauges[0];
+    const double until = steady_until(run, w, gauge->x);
+    const bool before = until > 0 && until < w->last;
+    const double height = before ? sb_wave_fit_height(sb_wave_fit_gauge(run, gauge->name), w->law->period,
+                                                      until - WINDOW * w->law->period, until)
+                                 : w->first_height;
+    figure(figures, "height at two wavelengths", "m", w->law->height, height, limit,
+           before ? "mean of crest minus trough in the last four periods before the long wave of the start comes back"
+                  : "mean of crest minus trough in the last four periods");
+    if (before)
+        sb_figure_report(figures, "height at two wavelengths, last four periods", "m", w->law->height, w->first_height,
+                         "when the long wave of the start has come back");
+}
+
 /* A line over gauges within two wavelengths, as in quick forms, does not distinguish a loss over ten from scatter. */
 static void figure_loss(const sb_case_run *run, const train *w, double limit, sb_figures *figures)
 {
@@ -184,8 +201,7 @@ static void evaluate(const sb_case_run *run, sb_figures *figures)
 {
     const bars *limit = run->of->what;
     const train w = train_of(run, sb_curve_new(run->made));
-    figure(figures, "height at two wavelengths", "m", w.law->height, w.first_height, limit->height,
-           "mean of crest minus trough in the last four periods");
+    figure_height(run, &w, limit->height, figures);
     figure_loss(run, &w, limit->loss, figures);
     figure_length(run, &w, limit->length, figures);
     sb_figure_report(figures, "second harmonic over first, at two wavelengths", "", (double)NAN, w.second,
@@ -212,7 +228,8 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
     "Reference: the height aimed at, and a steady wave (Rienecker and Fenton 1981; Stokes' theory of fifth order is "  \
     "within 0.02 % of it in all flumes but the cnoidal one) in a closed flume, where a return "                        \
     "current\ncarries back what the waves carry forward. Gauges stand from 2 to 12 wavelengths from the paddle; the "  \
-    "last four periods\ncount. Loss: from the line through the logarithms of the heights. Wavelength: from the line "  \
+    "last four periods\ncount, for the height at two wavelengths those before the long wave of the start comes back "  \
+    "(docs/decisions/0108). Loss: from the line through the logarithms of the heights. Wavelength: from the line "     \
     "through the phases of the first\nharmonics, over the last four periods before the long wave of the start comes "  \
     "back from the end of the flume, at the gauges\nthat the waves have reached by then (docs/decisions/0108); with "  \
     "fewer than five such gauges, at all in the last four periods. No\nfilter, no time shift. The quick form has "     \
