@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "output/trust.h"
+#include "physics/reflection.h"
 #include "scene/presets.h"
 
 static double ratio(double a, double b)
@@ -155,7 +156,7 @@ static void put_reflections(sb_json *json, const sb_summary *s)
         sb_json_number(json, "incident_m", row->incident);
         sb_json_number(json, "reflected_m", row->reflected);
         sb_json_number(json, "coefficient", row->reflected / row->incident);
-        sb_json_number(json, "separation", row->separation);
+        sb_json_bool(json, "distinct", row->separation >= SB_SEPARATION_TRUSTED);
         if (s->scene->measure.reflections[row->set].bound && row->harmonic > 1) {
             sb_json_number(json, "bound_incident_m", row->bound_incident);
             sb_json_number(json, "bound_reflected_m", row->bound_reflected);

@@ -1,7 +1,6 @@
 /* Waves at gauges, their reflection, and overtopping beside EurOtop: tables of the summary's lists. */
 #include "report/sections.h"
 
-#include "physics/reflection.h"
 #include "report/html.h"
 
 #include <math.h>
@@ -95,7 +94,7 @@ static size_t put_set(FILE *out, const json_t *list, size_t from)
         const json_t *item = json_array_get(list, end);
         const char *its = name_of(item, "name");
         if (!name || !its || strcmp(name, its) != 0) break;
-        if (number_of(item, "separation") < SB_SEPARATION_TRUSTED) continue;
+        if (json_is_false(json_object_get(item, "distinct"))) continue;
         incident += pow(number_of(item, "incident_m"), 2);
         reflected += pow(number_of(item, "reflected_m"), 2);
     }

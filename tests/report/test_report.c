@@ -167,7 +167,8 @@ static void waves_of_the_summary(void **state)
                "\"mean_period_s\":1.56}],\"reflections\":[{\"name\":\"set\",\"period_s\":2,\"incident_m\":0.1,"
                "\"reflected_m\":0.05,\"coefficient\":0.5},{\"name\":\"set\",\"period_s\":1,\"incident_m\":0.02,"
                "\"reflected_m\":0.01,"
-               "\"coefficient\":0.5},{\"name\":7}],"
+               "\"coefficient\":0.5},{\"name\":\"set\",\"period_s\":0.5,\"incident_m\":1,\"reflected_m\":1,"
+               "\"distinct\":false},{\"name\":7}],"
                "\"overtopping\":[{\"plane\":\"crest\",\"rate_m2_s\":0.0046,\"eurotop_m2_s\":0.00463}]}");
     char *text = report_text();
     assert_has(text, "Waves at gauges");
