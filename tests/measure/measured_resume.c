@@ -16,8 +16,9 @@ static const sb_flow_plane planes[] = {{"plane", 1.1, 0, 1.1, 1, -1, 4, true, 0.
 static const sb_runup_line lines[] = {{"floor", 0, 0, 2, 0}};
 
 static const sb_gauge_name split_names[] = {{"wet"}, {"far"}, {"dry"}};
-static const sb_reflection_set splits[] = {{"waves", 3, (sb_gauge_name *)split_names, 0.11, 2, 0.3, 0, 0.02, 0.2, false},
-                                           {"whole", 3, (sb_gauge_name *)split_names, 0.3, 1, 0.3, 0, 0, 9, false}};
+static const sb_reflection_set splits[] = {
+    {"waves", 3, (sb_gauge_name *)split_names, 0.11, 2, 0.3, 0, 0.02, 0.2, false},
+    {"whole", 3, (sb_gauge_name *)split_names, 0.3, 1, 0.3, 0, 0, 9, false}};
 
 /* A water column that has begun to collapse. */
 static void make(tank *t)

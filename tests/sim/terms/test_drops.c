@@ -1,7 +1,7 @@
 /* Surface tension: Laplace's pressure, the period of an oscillating drop, a cube that becomes a ball.
    Tolerances: pressure 3 % and period 2 % at 20 spacings. At 10 spacings the means along the surface make the period of
-   a disc longer, by 5.4 % at most (docs/decisions/0059), and forces 0.2 spacings below the surface raise the pressure by
-   (D - 1) 0.2 dr/R. */
+   a disc longer, by 5.4 % at most (docs/decisions/0059), and forces 0.2 spacings below the surface raise the pressure
+   by (D - 1) 0.2 dr/R. */
 #include "sim/terms/oscillate.h"
 
 static void a_disc_of_ten_spacings(void **state)
