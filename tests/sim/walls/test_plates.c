@@ -52,6 +52,15 @@ static void make(basin *b, const char *sides, const char *plates, const char *wa
     if (sb_sim_settle(b->sim, &error) != SB_OK) fail_msg("%s", error.text);
 }
 
+static void open_scene(basin *b, const char *path)
+{
+    sb_error error = {0};
+    *b = (basin){0};
+    if (sb_scene_read(path, NULL, NULL, 0, &b->scene, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sb_model_build(&b->scene, &b->model, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sb_sim_create(&b->scene, &b->model, NULL, &b->sim, &error) != SB_OK) fail_msg("%s", error.text);
+}
+
 static void free_basin(basin *b)
 {
     sb_sim_destroy(b->sim);
@@ -216,11 +225,8 @@ static void initial_waves_are_known(void **state)
                 "wavemakers:\n  - {name: taker, body: paddle, kind: absorber, depth: 0.5, period: 2%s}\n",
                 plates[k]);
         assert_int_equal(fclose(file), 0);
-        basin b = {0};
-        sb_error error = {0};
-        if (sb_scene_read(path, NULL, NULL, 0, &b.scene, &error) != SB_OK) fail_msg("%s", error.text);
-        if (sb_model_build(&b.scene, &b.model, &error) != SB_OK) fail_msg("%s", error.text);
-        if (sb_sim_create(&b.scene, &b.model, NULL, &b.sim, &error) != SB_OK) fail_msg("%s", error.text);
+        basin b;
+        open_scene(&b, path);
         assert_int_equal(tank_steps(b.sim, 2), 0);
         const sb_absorber *a = b.sim->walls.moving[0].absorber;
         printf("depth at the crest %.4g m, at rest %.4g m\n", a->depth, a->still);
@@ -309,11 +315,9 @@ static void plates_rest_before_an_uneven_bed(void **state)
                 "0.4}}\n",
                 kinds[makes]);
         assert_int_equal(fclose(file), 0);
-        basin b = {0};
+        basin b;
         sb_error error = {0};
-        if (sb_scene_read(path, NULL, NULL, 0, &b.scene, &error) != SB_OK) fail_msg("%s", error.text);
-        if (sb_model_build(&b.scene, &b.model, &error) != SB_OK) fail_msg("%s", error.text);
-        if (sb_sim_create(&b.scene, &b.model, NULL, &b.sim, &error) != SB_OK) fail_msg("%s", error.text);
+        open_scene(&b, path);
         if (sb_sim_settle(b.sim, &error) != SB_OK) fail_msg("%s", error.text);
         while (sb_sim_report(b.sim)->time < 1) assert_int_equal(tank_steps(b.sim, 1), 0);
         const sb_absorption one = sb_sim_absorption(b.sim, 0);
