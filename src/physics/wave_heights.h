@@ -6,11 +6,13 @@
 
 #include <stddef.h>
 
-/* Of waves between upward crossings of the series' mean. NaN where there are none. */
+/* Of waves between upward crossings of the series' mean that are higher than a fiftieth of `spectral`. NaN where there
+   are none. */
 typedef struct sb_wave_heights {
     size_t count;
     double level;                      /* m, mean of the series */
-    double mean, significant, highest; /* m: of all heights, of the highest third, of the highest wave */
+    double mean, significant, highest; /* m: of all heights, of the highest third, to the nearest whole
+                                          number, of the highest wave */
     double period;                     /* s, mean */
     double spectral;                   /* m, four standard deviations of the series */
 } sb_wave_heights;

@@ -36,12 +36,6 @@ static void take_rows(const sb_series_table *table, sb_load *load)
     load->impulse = hypot(load->impulse_horizontal, sum[2]);
 }
 
-static double number_of(const json_t *body, const char *key)
-{
-    const json_t *value = json_object_get(body, key);
-    return json_is_number(value) ? json_number_value(value) : (double)NAN;
-}
-
 static void take_trust(const json_t *bodies, sb_load *load)
 {
     size_t i;
@@ -53,8 +47,8 @@ static void take_trust(const json_t *bodies, sb_load *load)
         if (!name || strcmp(name, load->name) != 0) continue;
         const json_t *point = json_object_get(body, "moment_point_m");
         load->judged = json_object_get(body, "too_coarse") != NULL;
-        load->layers = number_of(body, "flow_layers");
-        load->gap = number_of(body, "gap_m");
+        load->layers = sb_report_item_number(body, "flow_layers");
+        load->gap = sb_report_item_number(body, "gap_m");
         load->coarse = json_is_true(json_object_get(body, "too_coarse"));
         load->narrow = json_is_true(json_object_get(body, "narrow_gap"));
         load->has_point = json_array_size(point) == 3;

@@ -220,10 +220,15 @@ const char *sb_report_status(const sb_report_run *run)
     return "unknown";
 }
 
+double sb_report_item_number(const json_t *item, const char *key)
+{
+    const json_t *value = json_object_get(item, key);
+    return json_is_number(value) ? json_number_value(value) : (double)NAN;
+}
+
 double sb_report_number(const sb_report_run *run, const char *key)
 {
-    const json_t *value = json_object_get(run->summary, key);
-    return json_is_number(value) ? json_number_value(value) : (double)NAN;
+    return sb_report_item_number(run->summary, key);
 }
 
 double sb_report_reached(const sb_report_run *run)

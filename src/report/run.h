@@ -57,6 +57,8 @@ const char *sb_report_status(const sb_report_run *run);
 /* A number or a text of the summary; NaN or NULL: it has no such key. */
 double sb_report_number(const sb_report_run *run, const char *key);
 const char *sb_report_text(const sb_report_run *run, const char *key);
+/* A number of an object of the summary; NaN: it has no such key. */
+double sb_report_item_number(const json_t *item, const char *key);
 /* The time that the simulation has reached, s; NaN: unknown. */
 double sb_report_reached(const sb_report_run *run);
 

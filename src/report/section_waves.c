@@ -40,12 +40,6 @@ static const shown all[] = {
       {"from_s", "From, s"}}},
 };
 
-static double number_of(const json_t *item, const char *key)
-{
-    const json_t *value = json_object_get(item, key);
-    return json_is_number(value) ? json_number_value(value) : (double)NAN;
-}
-
 static const char *name_of(const json_t *item, const char *key)
 {
     return json_string_value(json_object_get(item, key));
@@ -71,7 +65,7 @@ static void put_shown(FILE *out, const json_t *list, const shown *s)
         const json_t *item = json_array_get(list, i);
         sb_html_put(out, "<tr><th scope=\"row\">%s</th>", name_of(item, s->item));
         for (size_t c = 0; c < CELLS && s->cells[c].key; c++)
-            sb_html_put(out, "<td>%g</td>", number_of(item, s->cells[c].key));
+            sb_html_put(out, "<td>%g</td>", sb_report_item_number(item, s->cells[c].key));
         fputs("</tr>\n", out);
     }
     finish(out);
@@ -95,15 +89,15 @@ static size_t put_set(FILE *out, const json_t *list, size_t from)
         const char *its = name_of(item, "name");
         if (!name || !its || strcmp(name, its) != 0) break;
         if (json_is_false(json_object_get(item, "distinct"))) continue;
-        incident += pow(number_of(item, "incident_m"), 2);
-        reflected += pow(number_of(item, "reflected_m"), 2);
+        incident += pow(sb_report_item_number(item, "incident_m"), 2);
+        reflected += pow(sb_report_item_number(item, "reflected_m"), 2);
     }
     if (end == from) return from + 1; /* it has no name */
     for (size_t i = from; end - from <= FEW && i < end; i++) {
         const json_t *item = json_array_get(list, i);
         char period[SB_FIGURE_MAX];
-        put_amplitudes(out, name, sb_figure(period, number_of(item, "period_s")), number_of(item, "incident_m"),
-                       number_of(item, "reflected_m"));
+        put_amplitudes(out, name, sb_figure(period, sb_report_item_number(item, "period_s")),
+                       sb_report_item_number(item, "incident_m"), sb_report_item_number(item, "reflected_m"));
     }
     if (end - from > 1) put_amplitudes(out, name, "all", sqrt(incident), sqrt(reflected));
     return end;

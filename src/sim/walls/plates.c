@@ -57,23 +57,21 @@ static void add(const sb_moving_body *moving, sb_vec3 at, double width, bool rep
    water. */
 static void note_still(const sb_sim *sim, sb_moving_body *row, size_t count)
 {
-    const bool still = !sb_absorber_boxed(sim, row);
     double sum = 0;
     size_t wet = 0;
     if (row->absorber->known) return;
     for (size_t k = 0; k < count; k++) {
-        const bool water = row[k].absorber->depth >= sim->model->spacing;
-        sum += water ? row[k].absorber->depth : 0;
-        wet += water;
-    }
-    for (size_t k = 0; k < count; k++) {
         sb_absorber *a = row[k].absorber;
         const bool water = a->depth >= sim->model->spacing;
         const double pitch = (a->from[1] - a->from[0]) / (double)count, from = a->from[0] + (double)k * pitch;
-        const double own = a->depth - sb_absorber_raised(sim, &row[k], from, from + pitch);
-        a->still = !water ? 0 : still ? own : sum / (double)wet;
+        a->still = water ? a->depth - sb_absorber_raised(sim, &row[k], from, from + pitch) : 0;
         a->known = true;
+        sum += a->still;
+        wet += water;
     }
+    if (!sb_absorber_boxed(sim, row)) return;
+    for (size_t k = 0; k < count; k++)
+        if (row[k].absorber->still != 0) row[k].absorber->still = sum / (double)wet;
 }
 
 int sb_plates_measure(sb_sim *sim, sb_moving_body *moving)
