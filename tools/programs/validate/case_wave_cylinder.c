@@ -109,19 +109,35 @@ static void judge(sb_figures *figures, bool judged, const char *quantity, const 
         sb_figure_report(figures, quantity, unit, reference, value, note);
 }
 
+/* The run of the wave alone at the same spacing, or NULL. */
+static const sb_case_run *alone(const sb_case_run *runs, size_t count, const sb_case_run *with)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!cylinder_of(runs[i].scene) && runs[i].scene->resolution == with->scene->resolution) return &runs[i];
+    return NULL;
+}
+
+/* The finest run with a cylinder that has one of the wave alone beside it, or NULL. */
+static const sb_case_run *finest_pair(const sb_case_run *runs, size_t count)
+{
+    const sb_case_run *finest = NULL;
+    for (size_t i = 0; i < count; i++) {
+        if (!cylinder_of(runs[i].scene) || !alone(runs, count, &runs[i])) continue;
+        if (!finest || runs[i].scene->resolution < finest->scene->resolution) finest = &runs[i];
+    }
+    return finest;
+}
+
 /* Force and moment over the height that the run without the cylinder has at its place, and the phase between them. */
 static void compare(const sb_case_run *runs, const sb_figures *of_each, size_t count, sb_figures *figures)
 {
-    const sb_case_run *with = NULL, *without = NULL;
     (void)of_each;
-    for (size_t i = 0; i < count; i++) {
-        if (!cylinder_of(runs[i].scene))
-            without = &runs[i];
-        else if (runs[i].judged)
-            with = &runs[i];
-    }
-    if (!with || !without) return;
-    const bool judged = *(const aim *)with->of->what == BY_THEORY;
+    const sb_case_run *with = finest_pair(runs, count);
+    if (!with) return;
+    const sb_case_run *without = alone(runs, count, with);
+    const bool judged = with->judged && *(const aim *)with->of->what == BY_THEORY;
+    sb_figure_report(figures, "spacing of these runs", "m", (double)NAN, with->scene->resolution,
+                     "the finest at which both have been run");
     const sb_wave_fit eta = fit_of(without, sb_wave_fit_gauge(without, "centre")),
                       force = fit_of(with, whole(with, "Fx_N")), moment = fit_of(with, whole(with, "My_Nm"));
     const sb_cylinder_load one = theory_of(with, 1);
@@ -169,7 +185,7 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
     "0.5 degrees for "                                                                                                 \
     "Chen's). "
 
-/* The wave alone, in a slab that is periodic across. */
+/* The wave alone, in a slab of at least seven spacings that is periodic across. */
 #define ALONE(width)                                                                                                   \
     "render.interval=0", "domain.max=[9, " width ", 0.75]", "domain.sides={y_min: periodic, y_max: periodic}",         \
         "bodies=[{name: paddle, shape: box, min: [-0.25, 0, 0], max: [0, " width ", 0.73]}]",                          \
@@ -180,15 +196,14 @@ static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
     "water.level=0.505", "wavemakers.waves.height=0.07", "wavemakers.waves.depth=0.505",                               \
         "wavemakers.waves.period=1.22", "sponges.beach.period=1.22", "sponges.beach.depth=0.505", "duration=13.42"
 static const char *const plain_a[] = {"render.interval=0", NULL}, *const alone_a[] = {ALONE("0.12"), NULL},
-                         *const coarse_a[] = {"render.interval=0", NULL},
-                         *const coarse_alone_a[] = {ALONE("0.4"), NULL};
+                         *const middle_alone_a[] = {ALONE("0.2"), NULL}, *const coarse_alone_a[] = {ALONE("0.4"), NULL};
 static const char *const plain_b[] = {"render.interval=0", HIGHER, NULL},
                          *const alone_b[] = {ALONE("0.12"), HIGHER, NULL},
-                         *const coarse_b[] = {"render.interval=0", HIGHER, NULL},
+                         *const middle_alone_b[] = {ALONE("0.2"), HIGHER, NULL},
                          *const coarse_alone_b[] = {ALONE("0.4"), HIGHER, NULL};
 static const char *const plain_chen[] = {"render.interval=0", "bodies.cylinder.radius=0.125", CHEN, NULL},
                          *const alone_chen[] = {ALONE("0.12"), CHEN, NULL},
-                         *const coarse_chen[] = {"render.interval=0", "bodies.cylinder.radius=0.125", CHEN, NULL},
+                         *const middle_alone_chen[] = {ALONE("0.2"), CHEN, NULL},
                          *const coarse_alone_chen[] = {ALONE("0.4"), CHEN, NULL};
 
 static const aim by_theory = BY_THEORY, reported = REPORTED, by_experiment = BY_EXPERIMENT;
@@ -202,10 +217,12 @@ static const aim by_theory = BY_THEORY, reported = REPORTED, by_experiment = BY_
         .scene = "../scenes/cylinder-in-waves.yaml",                                                                   \
         .headline = "force, first harmonic",                                                                           \
         .what = &how,                                                                                                  \
-        .full = {{.resolution = 0.017, .variant = "without the cylinder", .settings = alone_##id},                     \
+        .full = {{.resolution = 0.025, .variant = "without the cylinder", .settings = middle_alone_##id},              \
+                 {.resolution = 0.025, .settings = plain_##id},                                                        \
+                 {.resolution = 0.017, .variant = "without the cylinder", .settings = alone_##id},                     \
                  {.resolution = 0.017, .judged = true, .settings = plain_##id}},                                       \
         .quick = {{.resolution = 0.05, .variant = "without the cylinder", .settings = coarse_alone_##id},              \
-                  {.resolution = 0.05, .judged = true, .settings = coarse_##id}},                                      \
+                  {.resolution = 0.05, .judged = true, .settings = plain_##id}},                                       \
         .evaluate = evaluate,                                                                                          \
         .compare = compare,                                                                                            \
         .plot = plot};
