@@ -69,22 +69,37 @@ static double period_of(const sb_wavemaker_use *maker)
     return period;
 }
 
+/* Reflected over incident amplitude of waves of this period, by linear theory. Its depth is taken for that of the sea,
+   which the sound speed of a viscous sponge follows from. */
+static double reflection_of(const sb_scene *scene, const sb_sponge *sponge, double period)
+{
+    const sb_numerics *n = &scene->numerics;
+    const double omega = 2 * M_PI / period, gravity = scene->fluid.gravity;
+    if (sponge->kind == SB_SPONGE_DAMPING)
+        return sb_sponge_reflection(sponge->profile, sponge->strength, omega, sponge->depth, gravity, sponge->length);
+    const double sound = n->sound_speed > 0 ? n->sound_speed : 10 * sqrt(gravity * sponge->depth);
+    const double viscosity =
+        sb_sponge_viscosity(sponge->alpha, n->support * scene->resolution, sound, scene->dimensions);
+    return sb_sponge_viscous_reflection(sponge->profile, viscosity, omega, sponge->depth, gravity, sponge->length);
+}
+
 /* A sponge made for other waves than those that run to it, or too short or too strong for them. */
 static void warn_of_reflection(const sb_scene *scene, const sb_sponge *sponge, sb_warning_visit *visit, void *context)
 {
     static const double most = 0.2;
     char text[400], reflected[32];
     for (size_t w = 0; w < scene->wavemaker_count; w++) {
-        if (sponge->kind != SB_SPONGE_DAMPING || !run_to(&scene->wavemakers[w], sponge)) continue;
+        if (!run_to(&scene->wavemakers[w], sponge)) continue;
         const double period = period_of(&scene->wavemakers[w]);
         if (!(period > 0)) continue;
-        const double share = sb_sponge_reflection(sponge->profile, sponge->strength, 2 * M_PI / period, sponge->depth,
-                                                  scene->fluid.gravity, sponge->length);
+        const double share = reflection_of(scene, sponge, period);
         if (!(share > most)) continue;
         snprintf(text, sizeof text,
                  "sponge \"%s\": by linear theory it reflects %s of waves of %.4g s, those of \"%s\"; expected a "
-                 "longer sponge, that period, or the strength that follows from it",
-                 sponge->name, sb_per_cent(share, reflected), period, scene->wavemakers[w].name);
+                 "longer sponge, %s",
+                 sponge->name, sb_per_cent(share, reflected), period, scene->wavemakers[w].name,
+                 sponge->kind == SB_SPONGE_DAMPING ? "that period, or the strength that follows from it"
+                                                   : "or another alpha");
         visit(context, text);
     }
 }

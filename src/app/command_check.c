@@ -225,6 +225,7 @@ int sb_command_check(int count, char **arguments)
     if (status == SB_OK && !grid) status = sb_model_build(&scene, &model, &error);
     if (status == SB_OK && scene.given.source != SB_GIVEN_NONE)
         status = sb_sea_create(&scene, &model.grid, &sea, &error);
+    if (status == SB_OK && !grid) status = sb_sim_foresee_start(&scene, &model, sb_model_start_speed(&model), &error);
     if (status == SB_OK && !grid) {
         estimate e = make_estimate(&scene, &model);
         e.sea = sea;

@@ -38,3 +38,35 @@ const char *sb_columns_unit(const char *line, size_t length)
     }
     return NULL;
 }
+
+/* 'm' or 's' if the name contains this unit as a word, or 0. */
+static char unit_in(const char *name, size_t length)
+{
+    for (size_t at = 0; at < length;) {
+        size_t end = at;
+        while (end < length && isalnum((unsigned char)name[end])) ++end;
+        if (end - at == 1 && (name[at] == 'm' || name[at] == 's')) return name[at];
+        at = end + 1;
+    }
+    return 0;
+}
+
+size_t sb_columns_misplaced(const char *line, size_t length, const char *units)
+{
+    size_t at = 0, marks = 0, words = 0;
+    for (size_t i = 0; i < length; ++i) {
+        marks += strchr(",;\t", line[i]) != NULL;
+        words += !strchr(" \r", line[i]) && (i == 0 || strchr(" \r", line[i - 1]));
+    }
+    if (!marks && words != strlen(units)) return 0;
+    const char *separators = marks ? ",;\t" : " \r";
+    for (size_t column = 0; at < length && units[column]; ++column) {
+        while (!marks && at < length && strchr(separators, line[at])) ++at;
+        size_t end = at;
+        while (end < length && !strchr(separators, line[end])) ++end;
+        const char unit = unit_in(line + at, end - at);
+        if (unit && unit != units[column]) return column + 1;
+        at = end + 1;
+    }
+    return 0;
+}

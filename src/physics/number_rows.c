@@ -19,16 +19,60 @@ typedef struct reading {
     void *context;
 } reading;
 
-/* Reads a number at *at and moves *at behind it and behind its separator. False if there is none. */
+static size_t cell_length(const char *at)
+{
+    return strcspn(at, " \t\r,;");
+}
+
+/* Reads a number at *at and moves *at behind it and behind its separator. False, and *at as it was, if there is none.
+ */
 static bool read_number(char **at, double *value)
 {
-    char *end = *at + strcspn(*at, " \t\r,;");
-    if (end == *at || strspn(*at, "+-.0123456789eE") != (size_t)(end - *at)) return false;
-    char *stop;
+    const size_t length = cell_length(*at);
+    char *end = *at + length, *stop;
+    if (length == 0 || strspn(*at, "+-.0123456789eE") != length) return false;
     *value = strtod(*at, &stop);
+    if (stop != end || !(fabs(*value) <= NUMBER_LIMIT)) return false;
     *at = end + strspn(end, " \t\r");
     if (**at == ',' || **at == ';') *at += 1 + strspn(*at + 1, " \t\r");
-    return stop == end && fabs(*value) <= NUMBER_LIMIT;
+    return true;
+}
+
+/* found: numbers before `at`, where there is no further one or one too many. */
+static sb_status refuse_line(const reading *r, size_t number, size_t found, const char *at, sb_error *error)
+{
+    const int shown = (int)cell_length(at) < 40 ? (int)cell_length(at) : 40;
+    if (found == r->columns)
+        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: \"%.*s\" is one value too many, expected %zu numbers: \"%s\"",
+                       r->path, number, shown, at, r->columns, r->expected);
+    if (shown > 0)
+        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: \"%.*s\" is no number below 1e9, expected %zu numbers: \"%s\"",
+                       r->path, number, shown, at, r->columns, r->expected);
+    return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: value %zu is missing, expected %zu numbers: \"%s\"", r->path,
+                   number, found + 1, r->columns, r->expected);
+}
+
+/* Fills units with the unit of each column, which `expected` has in parentheses. */
+static void find_units(const char *expected, char units[COLUMNS_MAX + 1])
+{
+    size_t count = 0;
+    for (const char *at = expected; count < COLUMNS_MAX && (at = strchr(at, '(')); at++)
+        units[count++] = at[2] == ')' ? at[1] : '-';
+    units[count] = '\0';
+}
+
+static sb_status check_header(const reading *r, size_t number, const char *line, sb_error *error)
+{
+    char units[COLUMNS_MAX + 1];
+    const char *unit = sb_columns_unit(line, strlen(line));
+    if (unit)
+        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: its header names the unit %s, expected seconds and metres",
+                       r->path, number, unit);
+    find_units(r->expected, units);
+    const size_t column = sb_columns_misplaced(line, strlen(line), units);
+    if (column == 0) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: column %zu has another unit in the header, expected \"%s\"",
+                   r->path, number, column, r->expected);
 }
 
 /* Reads one line without its newline. A comment or an empty line is no row. */
@@ -41,16 +85,9 @@ static sb_status read_line(reading *r, char *line, size_t number, sb_error *erro
     if (!*at) return SB_OK;
     const bool first = !r->begun;
     r->begun = true;
-    if (first && sb_columns_header(at, strlen(at))) {
-        const char *unit = sb_columns_unit(at, strlen(at));
-        if (!unit) return SB_OK;
-        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: its header names the unit %s, expected seconds and metres",
-                       r->path, number, unit);
-    }
+    if (first && sb_columns_header(at, strlen(at))) return check_header(r, number, at, error);
     while (found < r->columns && read_number(&at, &values[found])) found++;
-    if (found < r->columns || *at)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: expected %zu numbers below 1e9, \"%s\"", r->path, number,
-                       r->columns, r->expected);
+    if (found < r->columns || *at) return refuse_line(r, number, found, at, error);
     r->rows++;
     return r->take(r->context, number, values, error);
 }

@@ -71,7 +71,7 @@ static sb_status create(const sb_wavemaker_parameters *parameters, void **state,
     table *made = sb_alloc(1, sizeof *made);
     if (!made) return sb_fail_memory(error, parameters->file);
     reading of = {parameters->file, made};
-    sb_status status = sb_number_rows_visit(of.path, 2, 2, "time displacement", add_knot, &of, error);
+    sb_status status = sb_number_rows_visit(of.path, 2, 2, "time (s) displacement (m)", add_knot, &of, error);
     if (status != SB_OK) {
         destroy(made);
         return status;

@@ -46,6 +46,8 @@ typedef struct sb_crowding {
 sb_status sb_sim_find_crowding(const sb_scene *scene, const sb_model *model, sb_crowding *found, sb_error *error);
 /* SB_BAD_INPUT if the scene requires a first step that is too short for the resolution of stored positions. */
 sb_status sb_sim_check_start(const sb_sim *sim, sb_error *error);
+/* The same before there is a simulation, for water that starts with this maximum speed (m/s). */
+sb_status sb_sim_foresee_start(const sb_scene *scene, const sb_model *model, double speed, sb_error *error);
 void sb_sim_destroy(sb_sim *sim);
 
 /* Whether the run has settling: whether settle_steps is not 0. */

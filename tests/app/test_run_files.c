@@ -418,6 +418,9 @@ static void a_refused_run_keeps_the_earlier_run(void **state)
         RUN(1, "run", "tank2.yaml", "--out", "dear", "--quiet", "--overwrite", "--set", "numerics.time_step_max=1e-6");
     assert_one_line(o.err, "the first time step would be 1e-06 s, expected at least ");
     outcome_free(&o);
+    o = RUN(1, "check", "tank2.yaml", "--set", "numerics.time_step_max=1e-6");
+    assert_one_line(o.err, "the first time step would be 1e-06 s, expected at least ");
+    outcome_free(&o);
     o = RUN(1, "run", "tank2.yaml", "--out", "dear", "--quiet", "--overwrite", "--set", "fluid.viscosity=1e12");
     assert_one_line(o.err, "the first time step would be ");
     outcome_free(&o);

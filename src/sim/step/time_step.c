@@ -96,25 +96,39 @@ static double step_of(const sb_sim *sim)
     return longest_step(sim->scene, &sim->constant, top_speed(sim), sim->policy->step_factor);
 }
 
-static double least_step(const sb_sim *sim)
+static double least_step(const sb_constants *c, double quantum)
 {
-    return 0.5 * sim->space.quantum / (SLOWEST * (double)sim->constant.wave_speed);
+    return 0.5 * quantum / (SLOWEST * (double)c->wave_speed);
 }
 
-sb_status sb_sim_check_start(const sb_sim *sim, sb_error *error)
+static sb_status check_step(const sb_scene *scene, const sb_constants *c, double quantum, double dt, sb_error *error)
 {
-    const double dt = step_of(sim), least = least_step(sim);
+    const double least = least_step(c, quantum);
     if (dt >= least && isfinite(dt)) return SB_OK;
     return sb_fail(
         error, SB_BAD_INPUT,
         "%.500s: the first time step would be %g s, expected at least %.3g s: numerics.time_step_max, cfl or "
         "time_step_factor is too small, or gravity, a viscosity, surface_tension or the speed of sound is too large",
-        sim->scene->path ? sim->scene->path : "the scene", dt, least);
+        scene->path ? scene->path : "the scene", dt, least);
+}
+
+sb_status sb_sim_check_start(const sb_sim *sim, sb_error *error)
+{
+    return check_step(sim->scene, &sim->constant, sim->space.quantum, step_of(sim), error);
+}
+
+sb_status sb_sim_foresee_start(const sb_scene *scene, const sb_model *model, double speed, sb_error *error)
+{
+    const sb_constants constants = sb_constants_of(scene, model);
+    sb_space space;
+    const sb_status status = sb_space_create(model->min, model->max, (double)constants.support, &space, error);
+    if (status != SB_OK) return status;
+    return check_step(scene, &constants, space.quantum, longest_step(scene, &constants, speed, 1), error);
 }
 
 sb_status sb_stage_time_step(sb_sim *sim, sb_error *error)
 {
-    const double dt = step_of(sim), least = least_step(sim);
+    const double dt = step_of(sim), least = least_step(&sim->constant, sim->space.quantum);
     if (!(dt > 0) || !isfinite(dt))
         return sb_fail(error, SB_FAILED, "step %llu, t = %g s: time step is %g s: the run has diverged",
                        (unsigned long long)sim->state.step, sim->state.time, dt);
