@@ -1,5 +1,6 @@
 #include "app/check_waves.h"
 
+#include "app/check_zones.h"
 #include "base/per_cent.h"
 #include "physics/dispersion.h"
 #include "physics/paddle_way.h"
@@ -119,12 +120,7 @@ static double viscosity_of(const sb_scene *scene, const sb_model *model, const s
 /* Reflected over incident amplitude by linear theory. */
 static double reflection_of(const sb_scene *scene, const sb_model *model, const sb_sponge *sponge)
 {
-    if (sponge->kind == SB_SPONGE_VISCOUS)
-        return sb_sponge_viscous_reflection(sponge->profile, viscosity_of(scene, model, sponge),
-                                            2 * M_PI / sponge->period, sponge->depth, scene->fluid.gravity,
-                                            sponge->length);
-    return sb_sponge_reflection(sponge->profile, sponge->strength, 2 * M_PI / sponge->period, sponge->depth,
-                                scene->fluid.gravity, sponge->length);
+    return sb_zone_reflection(scene, sponge, sponge->period, sb_sim_sound_speed(scene, model));
 }
 
 static double wavelength_of(const sb_scene *scene, const sb_sponge *sponge)

@@ -69,18 +69,21 @@ static double period_of(const sb_wavemaker_use *maker)
     return period;
 }
 
-/* Reflected over incident amplitude of waves of this period, by linear theory. Its depth is taken for that of the sea,
-   which the sound speed of a viscous sponge follows from. */
-static double reflection_of(const sb_scene *scene, const sb_sponge *sponge, double period)
+double sb_zone_reflection(const sb_scene *scene, const sb_sponge *sponge, double period, double sound)
 {
-    const sb_numerics *n = &scene->numerics;
     const double omega = 2 * M_PI / period, gravity = scene->fluid.gravity;
     if (sponge->kind == SB_SPONGE_DAMPING)
         return sb_sponge_reflection(sponge->profile, sponge->strength, omega, sponge->depth, gravity, sponge->length);
-    const double sound = n->sound_speed > 0 ? n->sound_speed : 10 * sqrt(gravity * sponge->depth);
     const double viscosity =
-        sb_sponge_viscosity(sponge->alpha, n->support * scene->resolution, sound, scene->dimensions);
+        sb_sponge_viscosity(sponge->alpha, scene->numerics.support * scene->resolution, sound, scene->dimensions);
     return sb_sponge_viscous_reflection(sponge->profile, viscosity, omega, sponge->depth, gravity, sponge->length);
+}
+
+/* Speed of sound of a sea as deep as the sponge, m/s. */
+static double sound_of(const sb_scene *scene, const sb_sponge *sponge)
+{
+    const double given = scene->numerics.sound_speed;
+    return given > 0 ? given : 10 * sqrt(scene->fluid.gravity * sponge->depth);
 }
 
 /* A sponge made for other waves than those that run to it, or too short or too strong for them. */
@@ -92,7 +95,7 @@ static void warn_of_reflection(const sb_scene *scene, const sb_sponge *sponge, s
         if (!run_to(&scene->wavemakers[w], sponge)) continue;
         const double period = period_of(&scene->wavemakers[w]);
         if (!(period > 0)) continue;
-        const double share = reflection_of(scene, sponge, period);
+        const double share = sb_zone_reflection(scene, sponge, period, sound_of(scene, sponge));
         if (!(share > most)) continue;
         snprintf(text, sizeof text,
                  "sponge \"%s\": by linear theory it reflects %s of waves of %.4g s, those of \"%s\"; expected a "

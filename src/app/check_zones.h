@@ -1,4 +1,4 @@
-/* Warnings about the places of sponges. */
+/* Warnings about the places of sponges, and what they reflect. */
 #ifndef SB_APP_CHECK_ZONES_H
 #define SB_APP_CHECK_ZONES_H
 
@@ -8,5 +8,9 @@
 /* Warns of sponges that begin outside of the domain, of those that overlap, and of those that reflect waves of the
    scene. */
 void sb_zone_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context);
+
+/* Reflected over incident amplitude of waves of this period (s) at a sponge, by linear theory. sound: speed of sound
+   (m/s), from which the viscosity of a viscous sponge follows. */
+double sb_zone_reflection(const sb_scene *scene, const sb_sponge *sponge, double period, double sound);
 
 #endif
