@@ -14,8 +14,8 @@ bool sb_columns_header(const char *line, size_t length);
 const char *sb_columns_unit(const char *line, size_t length);
 
 /* Returns the number, from 1, of the first column whose name has the unit m or s although `units` has another one for
-   it, or 0. units: 'm', 's' or another character for each column. Names with blanks in them are told apart by commas,
-   semicolons or tabs only. */
+   it, or 0. units: 'm', 's' or another character for each column. Commas, semicolons or tabs separate names that
+   contain blanks. */
 size_t sb_columns_misplaced(const char *line, size_t length, const char *units);
 
 #endif

@@ -117,27 +117,24 @@ static const sb_case_run *alone(const sb_case_run *runs, size_t count, const sb_
     return NULL;
 }
 
-/* The finest run with a cylinder that has one of the wave alone beside it, or NULL. */
-static const sb_case_run *finest_pair(const sb_case_run *runs, size_t count)
+static const sb_case_run *finest(const sb_case_run *runs, size_t count)
 {
-    const sb_case_run *finest = NULL;
-    for (size_t i = 0; i < count; i++) {
-        if (!cylinder_of(runs[i].scene) || !alone(runs, count, &runs[i])) continue;
-        if (!finest || runs[i].scene->resolution < finest->scene->resolution) finest = &runs[i];
-    }
-    return finest;
+    const sb_case_run *found = NULL;
+    for (size_t i = 0; i < count; i++)
+        if (cylinder_of(runs[i].scene) && (!found || runs[i].scene->resolution < found->scene->resolution))
+            found = &runs[i];
+    return found;
 }
 
 /* Force and moment over the height that the run without the cylinder has at its place, and the phase between them. */
 static void compare(const sb_case_run *runs, const sb_figures *of_each, size_t count, sb_figures *figures)
 {
     (void)of_each;
-    const sb_case_run *with = finest_pair(runs, count);
-    if (!with) return;
-    const sb_case_run *without = alone(runs, count, with);
+    const sb_case_run *with = finest(runs, count), *without = with ? alone(runs, count, with) : NULL;
+    if (!without) return;
     const bool judged = with->judged && *(const aim *)with->of->what == BY_THEORY;
     sb_figure_report(figures, "spacing of these runs", "m", (double)NAN, with->scene->resolution,
-                     "the finest at which both have been run");
+                     "the finest with the cylinder");
     const sb_wave_fit eta = fit_of(without, sb_wave_fit_gauge(without, "centre")),
                       force = fit_of(with, whole(with, "Fx_N")), moment = fit_of(with, whole(with, "My_Nm"));
     const sb_cylinder_load one = theory_of(with, 1);
