@@ -144,31 +144,36 @@ sb_status sb_number_rows_visit(const char *path, size_t columns, size_t least, c
 
 typedef struct list {
     const char *path;
-    size_t columns, count, capacity; /* count: numbers */
-    double *values;
+    size_t columns, values_capacity, lines_capacity;
+    sb_number_rows rows;
 } list;
 
 static sb_status add_row(void *context, size_t line, const double *values, sb_error *error)
 {
     list *l = context;
-    (void)line;
-    if (sb_grow((void **)&l->values, &l->capacity, l->count + l->columns, sizeof *values) != 0)
+    sb_number_rows *rows = &l->rows;
+    const size_t end = l->columns * (rows->count + 1);
+    if (sb_grow((void **)&rows->values, &l->values_capacity, end, sizeof *values) != 0 ||
+        sb_grow((void **)&rows->lines, &l->lines_capacity, rows->count + 1, sizeof line) != 0)
         return sb_fail_memory(error, l->path);
-    memcpy(l->values + l->count, values, l->columns * sizeof *values);
-    l->count += l->columns;
+    memcpy(rows->values + end - l->columns, values, l->columns * sizeof *values);
+    rows->lines[rows->count++] = line;
     return SB_OK;
 }
 
-sb_status sb_number_rows_read(const char *path, size_t columns, const char *expected, double **values, size_t *rows,
+sb_status sb_number_rows_read(const char *path, size_t columns, const char *expected, sb_number_rows *rows,
                               sb_error *error)
 {
     list l = {.path = path, .columns = columns};
-    sb_status status = sb_number_rows_visit(path, columns, 1, expected, add_row, &l, error);
-    if (status != SB_OK) {
-        sb_free(l.values);
-        return status;
-    }
-    *values = l.values;
-    *rows = l.count / columns;
-    return SB_OK;
+    const sb_status status = sb_number_rows_visit(path, columns, 1, expected, add_row, &l, error);
+    if (status != SB_OK) sb_number_rows_free(&l.rows);
+    *rows = l.rows;
+    return status;
+}
+
+void sb_number_rows_free(sb_number_rows *rows)
+{
+    sb_free(rows->values);
+    sb_free(rows->lines);
+    *rows = (sb_number_rows){0};
 }

@@ -17,8 +17,16 @@ typedef sb_status sb_number_row(void *context, size_t line, const double *values
 sb_status sb_number_rows_visit(const char *path, size_t columns, size_t least, const char *expected,
                                sb_number_row *take, void *context, sb_error *error);
 
-/* Reads such rows into *values, row after row, which the caller frees with sb_free; *rows: their number, at least 1. */
-sb_status sb_number_rows_read(const char *path, size_t columns, const char *expected, double **values, size_t *rows,
+typedef struct sb_number_rows {
+    double *values; /* row after row */
+    size_t *lines;  /* of each row, counted from 1 */
+    size_t count;   /* of rows, at least 1 */
+} sb_number_rows;
+
+/* Reads such rows. The caller frees them with sb_number_rows_free; after a failure there is nothing to free. */
+sb_status sb_number_rows_read(const char *path, size_t columns, const char *expected, sb_number_rows *rows,
                               sb_error *error);
+
+void sb_number_rows_free(sb_number_rows *rows);
 
 #endif

@@ -1,6 +1,7 @@
 #include "physics/wave_train.h"
 
 #include "base/memory.h"
+#include "physics/breaking.h"
 #include "physics/dispersion.h"
 
 #include <math.h>
@@ -36,6 +37,16 @@ void sb_wave_train_set(sb_wave_train *train, size_t i, double amplitude, double 
                                      .amplitude = amplitude,
                                      .number = number,
                                      .stroke = amplitude / sb_paddle_gain(train->motion, number, train->depth)};
+}
+
+sb_status sb_wave_train_sum(sb_wave_train *train, const char *path, sb_error *error)
+{
+    sb_sum_height all = {0};
+    sb_error why = {0};
+    for (size_t i = 0; i < train->count; i++) sb_sum_height_add(&all, train->part[i].amplitude, train->part[i].number);
+    train->facts.height = sb_sum_height_of(&all);
+    if (sb_sum_height_check(&all, train->depth, &why) == SB_OK) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT, "%.500s: %.300s", path, why.text);
 }
 
 /* Part of the full motion at time t: a smooth step over `ramp` at the start, and back at the end. */

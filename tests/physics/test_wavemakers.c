@@ -438,13 +438,14 @@ static void signals_refuse_bad_tables(void **state)
     static const struct {
         const char *text, *expected;
     } cases[] = {
-        {"0 0\n1 1\n2 0\n3 1\n2 0\n5 1\n6 0\n7 1\n", "row 5: time 2 s does not follow 3 s, expected increasing times"},
-        {"7 0\n6 1\n5 0\n4 1\n3 0\n2 1\n1 0\n0 1\n", "row 2: time 6 s does not follow 7 s, expected increasing times"},
-        {"0 0\n0 1\n1 0\n2 1\n3 0\n4 1\n5 0\n6 1\n", "row 2: time 0 s does not follow 0 s"},
+        {"0 0\n1 1\n2 0\n3 1\n2 0\n5 1\n6 0\n7 1\n", ":5: time 2 s does not follow 3 s, expected increasing times"},
+        {"7 0\n6 1\n5 0\n4 1\n3 0\n2 1\n1 0\n0 1\n", ":2: time 6 s does not follow 7 s, expected increasing times"},
+        {"time (s) surface (m)\n0 0\n# doubled\n0 1\n1 0\n2 1\n3 0\n4 1\n5 0\n6 1\n",
+         ":4: time 0 s does not follow 0 s"},
         {"0 0\n1 1\n2 0\n3 1\n4.1 0\n5 1\n6 0\n7 1\n",
-         "row 5, of 4.1 s, follows after 1.1 s, expected equal steps of about 1 s"},
+         ":5: time 4.1 s follows after 1.1 s, expected equal steps of about 1 s"},
         {"0 0\n1 1\n2 0\n3 1\n9 0\n10 1\n11 0\n12 1\n",
-         "row 5, of 9 s, follows after 6 s, expected equal steps of about 1 s"},
+         ":5: time 9 s follows after 6 s, expected equal steps of about 1 s"},
         {"0 .1\n1 .1\n2 .1\n3 .1\n4 .1\n5 .1\n6 .1\n7 .1\n8 .1\n9 .1\n", "the surface is constant, expected waves"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
@@ -454,6 +455,8 @@ static void signals_refuse_bad_tables(void **state)
     refuses_file("signal", SIGNAL, garbage, sizeof garbage - 1,
                  ":2: contains the control character 0x01, expected a text table");
     refuses_file("signal", SIGNAL, zero, sizeof zero - 1, ":2: contains a zero byte, expected a text table");
+    static const char still[] = "amplitude (m) period (s) phase (degrees)\n0.1 2 0\n0.1 0 0\n";
+    refuses_file("components", WAVES, still, sizeof still - 1, ":3: a wave has the amplitude 0.1 m and the period 0 s");
     refuses_file("components", WAVES, zero, sizeof zero - 1, ":2: contains a zero byte, expected a text table");
     refuses_file("file", TABLE, garbage, sizeof garbage - 1, ":2: contains the control character 0x01");
     make_good_table(NULL);
