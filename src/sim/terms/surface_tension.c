@@ -15,9 +15,10 @@ static const double NOISE = 0.005;
    reaches one node farther than phi, and each node with a force needs particles that take it. */
 enum { MEANS = 1, SPREADS = 2 };
 
-/* A particle takes a part of a force in proportion to (1 - phi + AIR)^2 at its place, so that the force acts on the
-   outermost layer. Forces that act d below the surface raise the pressure of a drop by (D - 1) d/R. */
-static const double AIR = 0.02;
+/* A particle takes a part of a force in proportion to (1 - phi + LEAST)^2 at its place, so that the force acts on the
+   outermost layer. Forces that act d below the surface raise the pressure of a drop by (D - 1) d/R. LEAST only leaves
+   no node without takers. */
+static const double LEAST = 0.001;
 
 /* |grad phi|, less where it is noise, over |grad phi|^2: the factor of the stress. square > 0. */
 static double stress_factor(double square)
@@ -122,7 +123,7 @@ static int find_shares(sb_sim *sim, const sb_nodes *nodes, const fields *f, doub
     for (size_t i = 0; i < n; i++) {
         double phi[3];
         sb_nodes_take(sim, nodes, i, f->phi, 1, phi);
-        const double air = fmax(1 - phi[0], 0) + AIR;
+        const double air = fmax(1 - phi[0], 0) + LEAST;
         sim->work.pull[i][3] = (float)(air * air);
     }
     memset(f->share, 0, nodes->count * sizeof *f->share);

@@ -4,7 +4,7 @@
 static void a_ball_of_ten_spacings(void **state)
 {
     (void)state;
-    oscillate(&(case_of_drop){{3, 0.1, 1.05, false, 0}, 1.3, 4, 0.05, 0.02});
+    oscillate(&(case_of_drop){{3, 0.1, 1.05, false, 0}, 1.3, 4, 0.03, 0.02});
 }
 
 int main(void)

@@ -102,7 +102,7 @@ static void find(plain *p, const sb_sim *sim)
     for (size_t i = 0; i < p->n; i++) {
         double phi = 0;
         EACH_NODE(p) phi += weight_between(p, i, x, y, z, 0) * p->phi[node_of(p, x, y, z)];
-        p->own[i] = pow(fmax(1 - phi, 0) + 0.02, 2);
+        p->own[i] = pow(fmax(1 - phi, 0) + 0.001, 2);
     }
     EACH_NODE(p)
     for (size_t i = 0; i < p->n; i++)
