@@ -69,9 +69,11 @@ static void print_parts(const sb_scene *scene, const sb_wavemaker_use *maker, do
         printf("    flap about z = %.4g m in %zu rows; height over stroke %.4g\n", row.from, row.count, gain);
         return;
     }
-    printf("    %zu push-plates of %.4g m along %c, %.3g spacings each\n", row.count,
+    printf("    %zu push-plates of %.4g m along %c, %.3g spacings each", row.count,
            (row.to - row.from) / (double)row.count, row.axis == 0 ? 'x' : 'y',
            (row.to - row.from) / (double)row.count / scene->resolution);
+    if (row.levels > 1) printf("; %zu above each other read the same surface and move as one", row.levels);
+    printf("\n");
 }
 
 static void print_absorption(const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)

@@ -85,9 +85,11 @@ typedef struct sb_body {
     double width, length;  /* plane: horizontal extent, and extent perpendicular to it */
 } sb_body;
 
-/* Push-plates side by side, into which an absorbing paddle is divided. */
+/* Push-plates, into which an absorbing paddle is divided. Those above each other read the same surface and move as one:
+   the height acts on no motion. */
 typedef struct sb_plate_settings {
-    double width; /* m, about that of each; 0: the paddle is one */
+    double width;  /* m, about that of each; 0: the paddle is one */
+    double height; /* m, about that of each; 0: that of the paddle */
 } sb_plate_settings;
 
 /* A body's motion along `direction`: the law's displacement(t - start). */

@@ -23,7 +23,7 @@ size_t sb_scene_plates(const sb_scene *scene, const sb_wavemaker_use *use, sb_pl
 {
     const sb_body *body = sb_plates_body(scene, use);
     const bool flap = use->law.motion == SB_PADDLE_FLAP;
-    *row = (sb_plate_row){0};
+    *row = (sb_plate_row){.levels = 1};
     if (!(flap || use->plates.width > 0) || !body) return 0;
     row->axis = flap ? 2 : fabs(use->direction.x) > fabs(use->direction.y) ? 1 : 0;
     const double move = sb_component(body->translate, row->axis);
@@ -34,6 +34,8 @@ size_t sb_scene_plates(const sb_scene *scene, const sb_wavemaker_use *use, sb_pl
     const double extent = row->to - row->from;
     const double most = flap ? (double)PLATES_MAX : fmin(floor(extent / (NARROWEST * scene->resolution) + 1e-9), 1e6);
     row->count = (size_t)fmax(fmin(round(extent / width), most), 1);
+    if (!flap && use->plates.height > 0)
+        row->levels = (size_t)fmax(fmin(round((body->max.z - body->min.z) / use->plates.height), 1e6), 1);
     return row->count;
 }
 
@@ -52,7 +54,7 @@ static sb_status check_flap(sb_reader *reader, const sb_yaml *map, const sb_wave
     sb_plate_row row;
     if (use->law.absorb)
         return sb_reader_fail(reader, map, "motion", "a flap does not absorb, expected absorb: false, or a piston");
-    if (use->plates.width > 0)
+    if (use->plates.width > 0 || use->plates.height > 0)
         return sb_reader_fail(reader, map, "plates", "a flap has no push-plates, expected no plates, or a piston");
     if (!body || body->shape != SB_SHAPE_BOX || sb_norm(body->rotate) > 0)
         return sb_reader_fail(reader, map, "motion", "%s is not a box, expected a body of shape box without rotate",
@@ -86,6 +88,9 @@ sb_status sb_plates_check(sb_reader *reader, const sb_yaml *map, const sb_wavema
     const double least = NARROWEST * scene->resolution;
     sb_plate_row row;
     if (use->law.motion == SB_PADDLE_FLAP) return check_flap(reader, map, use, body);
+    if (!(use->plates.width > 0) && use->plates.height > 0)
+        return sb_reader_fail(reader, map, "plates",
+                              "height without a width, expected the width of one plate in metres");
     if (!(use->plates.width > 0)) return SB_OK;
     if (scene->dimensions == 2)
         return sb_reader_fail(reader, map, "plates", "has no effect in 2D, expected a scene in 3D, or no plates");
@@ -100,6 +105,9 @@ sb_status sb_plates_check(sb_reader *reader, const sb_yaml *map, const sb_wavema
     if (use->plates.width < least * (1 - 1e-9))
         return sb_reader_fail(reader, map, "plates", "%g m wide, expected at least 3 spacings, %g m", use->plates.width,
                               least);
+    if (use->plates.height > 0 && use->plates.height < least * (1 - 1e-9))
+        return sb_reader_fail(reader, map, "plates", "%g m high, expected at least 3 spacings, %g m",
+                              use->plates.height, least);
     if (sb_scene_plates(scene, use, &row) > PLATES_MAX)
         return sb_reader_fail(reader, map, "plates", "%zu plates, expected at most %d: a larger width", row.count,
                               PLATES_MAX);

@@ -136,11 +136,12 @@ static inline bool sb_scene_repeats(const sb_scene *scene, int axis)
 bool sb_scene_may_have_body(const sb_scene *scene, const char *name);
 
 /* The parts of a paddle: push-plates side by side, or the rows of a flap above each other. `count` of equal width from
-   `from` to `to` (m) along an axis, 0: x, 1: y, 2: z. Of a flap `from` is the height of its hinge. */
+   `from` to `to` (m) along an axis, 0: x, 1: y, 2: z. Of a flap `from` is the height of its hinge. Each push-plate is
+   `levels` plates above each other, which move as one. */
 typedef struct sb_plate_row {
     int axis;
     double from, to;
-    size_t count;
+    size_t count, levels;
 } sb_plate_row;
 /* Finds the parts of a wave maker's body, within the domain. Returns their number, 0: the paddle is one. */
 size_t sb_scene_plates(const sb_scene *scene, const sb_wavemaker_use *use, sb_plate_row *row);

@@ -31,17 +31,14 @@ static const sb_key plate_keys[] = {
     {.name = "width", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_plate_settings, width), .unit = "m", SB_KEY_NOT_NEGATIVE,
      .fallback = "0", .doc = "About the width of one plate, at least 3 spacings; 0: the paddle is one. "
                               "At most 100 plates, of a box without `rotate` that moves along x or y."},
+    {.name = "height", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_plate_settings, height), .unit = "m", SB_KEY_NOT_NEGATIVE,
+     .fallback = "0", .flags = SB_KEY_LATER,
+     .doc = "About the height of one plate; 0: that of the paddle. Plates above each other read the same surface and "
+            "move as one, so that the height changes no motion."},
 };
 /* clang-format on */
 
-static const sb_removed_key no_plate_keys[] = {
-    {"height", "plates above each other would read the same surface and move as one, expected no height: a plate "
-               "reaches over the height of its paddle"},
-    {NULL, NULL},
-};
-
-static const sb_table plate_table = {SB_KEY_ROWS(plate_keys), .removed = no_plate_keys,
-                                     .size = sizeof(sb_plate_settings)};
+static const sb_table plate_table = {SB_KEY_ROWS(plate_keys), .size = sizeof(sb_plate_settings)};
 
 /* clang-format off */
 static const sb_key keys[] = {

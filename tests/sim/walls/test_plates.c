@@ -358,6 +358,25 @@ static void plates_are_three_spacings_wide(void **state)
     box = whole_box;
 }
 
+/* A height divides a plate into plates that move as one: the water is that without it, bit for bit. */
+static void plates_above_each_other_move_as_one(void **state)
+{
+    (void)state;
+    basin divided, whole;
+    sb_plate_row row;
+    make(&divided, "", ", plates: {width: 0.4, height: 0.4}", "images");
+    make(&whole, "", plates_of[1], "images");
+    assert_int_equal(sb_scene_plates(&whole.scene, &whole.scene.wavemakers[0], &row), 4);
+    assert_int_equal(row.levels, 1);
+    assert_int_equal(sb_scene_plates(&divided.scene, &divided.scene.wavemakers[0], &row), 4);
+    assert_int_equal(row.levels, 3);
+    assert_int_equal(tank_steps(divided.sim, 20), 0);
+    assert_int_equal(tank_steps(whole.sim, 20), 0);
+    assert_true(sb_sim_hash(divided.sim) == sb_sim_hash(whole.sim));
+    free_basin(&divided);
+    free_basin(&whole);
+}
+
 static uint64_t run(basin *b, int threads, int steps)
 {
     omp_set_num_threads(threads);
@@ -394,7 +413,8 @@ static void unfit_plates_are_refused(void **state)
     } cases[] = {
         {", plates: {width: 0.2}", "at least 3 spacings"},
         {", plates: {width: 0.4}, direction: [1, 1, 0]", "is oblique"},
-        {", plates: {width: 0.4, height: 0.4}", "would read the same surface"},
+        {", plates: {width: 0.4, height: 0.2}", "0.2 m high, expected at least 3 spacings"},
+        {", plates: {height: 0.4}", "height without a width"},
         {", plates: {width: -1}", "expected"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
@@ -410,6 +430,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plates_take_waves_across),
         cmocka_unit_test(plates_are_one_body),
+        cmocka_unit_test(plates_above_each_other_move_as_one),
         cmocka_unit_test(a_paddle_reads_its_depth),
         cmocka_unit_test(a_short_row_does_not_repeat),
         cmocka_unit_test(plates_are_three_spacings_wide),
