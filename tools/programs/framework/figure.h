@@ -37,7 +37,7 @@ const sb_figure *sb_figures_find(const sb_figures *figures, const char *quantity
 /* Adds a copy of a judged figure. */
 void sb_figures_add(sb_figures *figures, const sb_figure *figure);
 
-/* Each function adds one figure. `note` is a printf format. */
+/* Each function adds one figure. `note` is a printf format. With a limit of NaN the figure is reported, not judged. */
 
 /* error = 100 (value - reference)/scale %, within +-limit %. scale: usually |reference| or a wave height. */
 void sb_figure_share(sb_figures *figures, const char *quantity, const char *unit, double reference, double value,

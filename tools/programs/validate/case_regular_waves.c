@@ -139,10 +139,7 @@ static train train_of(const sb_case_run *run, sb_curve *heights)
 static void figure(sb_figures *figures, const char *quantity, const char *unit, double reference, double value,
                    double limit, const char *note)
 {
-    if (isnan(limit))
-        sb_figure_report(figures, quantity, unit, reference, value, "%s", note);
-    else
-        sb_figure_share(figures, quantity, unit, reference, value, reference, limit, "%s", note);
+    sb_figure_share(figures, quantity, unit, reference, value, reference, limit, "%s", note);
 }
 
 static void figure_length(const sb_case_run *run, const train *w, double limit, sb_figures *figures)

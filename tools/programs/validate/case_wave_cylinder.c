@@ -102,11 +102,8 @@ static void evaluate(const sb_case_run *run, sb_figures *figures)
 static void judge(sb_figures *figures, bool judged, const char *quantity, const char *unit, double reference,
                   double value)
 {
-    static const char note[] = "first harmonics of both; theory: MacCamy and Fuchs (1954)";
-    if (judged)
-        sb_figure_share(figures, quantity, unit, reference, value, reference, 8, note);
-    else
-        sb_figure_report(figures, quantity, unit, reference, value, note);
+    sb_figure_share(figures, quantity, unit, reference, value, reference, judged ? 8 : (double)NAN,
+                    "first harmonics of both; theory: MacCamy and Fuchs (1954)");
 }
 
 /* The run of the wave alone at the same spacing, or NULL. */
@@ -142,11 +139,7 @@ static void compare(const sb_case_run *runs, const sb_figures *of_each, size_t c
     judge(figures, judged, "force per wave height", "N/m", one.force, force.amplitude[0] / height);
     judge(figures, judged, "moment per wave height", "N m/m", one.moment, moment.amplitude[0] / height);
     const double lead = sb_wave_fit_turn(eta.phase[0], force.phase[0]) * 180 / M_PI, expected = one.lead * 180 / M_PI;
-    if (judged)
-        sb_figure_difference(figures, "force ahead of the crest", "deg", expected, lead, 5,
-                             "phase of the first harmonics at the cylinder's axis");
-    else
-        sb_figure_report(figures, "force ahead of the crest", "deg", expected, lead,
+    sb_figure_difference(figures, "force ahead of the crest", "deg", expected, lead, judged ? 5 : (double)NAN,
                          "phase of the first harmonics at the cylinder's axis");
     const double period = with->scene->wavemakers[0].law.period, first = begin_of(with), last = with->scene->duration;
     const sb_wave_range f = sb_wave_fit_range(whole(with, "Fx_N"), period, first, last),
