@@ -48,20 +48,29 @@ static sb_cylinder_load theory_of(const sb_case_run *run, double height)
                               cylinder ? cylinder->radius : (double)NAN, scene->fluid.density, scene->fluid.gravity);
 }
 
+/* The measured force on the clock of the run. The run's last five periods are laid over the data that begin two periods
+   after their start: all of them are covered at any lag of less than a period. lag: data's clock less the run's, s. */
+static sb_curve *measured_force(const sb_case_run *run, const sb_curve *force, double *lag, double *rms)
+{
+    const double period = run->scene->wavemakers[0].law.period;
+    sb_curve *data = sb_reference_curve(run, "cylinder/chen-force.csv", NULL, "time_s", "force_N");
+    const double start = sb_curve_x(data, 0);
+    *rms = sb_wave_fit_least(force, data, begin_of(run), start + 2 * period, period, lag);
+    sb_curve_map(data, 1, -*lag, 1, 0);
+    return data;
+}
+
 static void figure_experiment(const sb_case_run *run, const sb_curve *force, sb_figures *figures)
 {
     const double period = run->scene->wavemakers[0].law.period;
-    const sb_curve *data = sb_reference_curve(run, "cylinder/chen-force.csv", NULL, "time_s", "force_N");
-    const double start = data->count ? data->x[0] : 0;
+    double lag, rms;
+    const sb_curve *data = measured_force(run, force, &lag, &rms);
+    const double start = sb_curve_x(data, 0);
     const sb_wave_range measured = sb_wave_fit_range(data, period, start, start + 9 * period);
     const sb_wave_range own = sb_wave_fit_range(force, period, begin_of(run), run->scene->duration);
-    double lag = (double)NAN;
     sb_figure_share(figures, "force, crest", "N", measured.crest, own.crest, measured.crest, 8,
                     "mean of the highest values in the last five periods; laboratory: in nine periods");
     sb_figure_share(figures, "force, trough", "N", measured.trough, own.trough, fabs(measured.trough), 8, "the same");
-    /* The run's last five periods over the data that begin two periods after their start: all of them are covered at
-       any lag of less than a period. */
-    const double rms = sb_wave_fit_least(force, data, begin_of(run), start + 2 * period, period, &lag);
     sb_figure_below(figures, "force, RMS difference", "%", 100 * rms / measured.crest, 10,
                     "over five periods, relative to the measured crest; clocks differ by %.3f s", lag);
 }
@@ -154,11 +163,35 @@ static void compare(const sb_case_run *runs, const sb_figures *of_each, size_t c
                      height, "at the cylinder's axis");
 }
 
+/* The force that is expected of the finest run with a cylinder: measured, or by theory for the wave without it. NULL:
+   there is no such run. */
+static sb_curve *expected_force(const sb_case_run *runs, size_t count)
+{
+    enum { POINTS = 60 };
+    const sb_case_run *with = finest(runs, count), *without = with ? alone(runs, count, with) : NULL;
+    double lag, rms;
+    if (!without) return NULL;
+    if (*(const aim *)with->of->what == BY_EXPERIMENT) return measured_force(with, whole(with, "Fx_N"), &lag, &rms);
+    const double period = with->scene->wavemakers[0].law.period, omega = 2 * M_PI / period;
+    const sb_wave_fit eta = fit_of(without, sb_wave_fit_gauge(without, "centre"));
+    const sb_cylinder_load load = theory_of(with, 2 * eta.amplitude[0]);
+    sb_curve *theory = sb_curve_new(with->made);
+    for (int i = 0; i <= WINDOW * POINTS; i++) {
+        const double t = begin_of(with) + period * i / POINTS;
+        sb_curve_add(theory, t, load.force * cos(omega * t - eta.phase[0] + load.lead));
+    }
+    return theory;
+}
+
 static void plot(const sb_case_run *runs, size_t count, sb_plot *plot)
 {
     const double period = runs[0].scene->wavemakers[0].law.period, last = runs[0].scene->duration;
     sb_plot_panel(plot, "Horizontal force on the cylinder", "time (s)", "N");
     sb_plot_range(plot, last - WINDOW * period, last, (double)NAN, (double)NAN);
+    const sb_curve *expected = expected_force(runs, count);
+    if (expected)
+        sb_plot_curve(plot, SB_PLOT_REFERENCE,
+                      *(const aim *)runs[0].of->what == BY_EXPERIMENT ? "measured" : "linear theory", expected);
     for (size_t i = 0; i < count; i++)
         if (cylinder_of(runs[i].scene)) sb_plot_run(plot, &runs[i], whole(&runs[i], "Fx_N"));
     sb_plot_panel(plot, "Surface at its place without the cylinder, and 1 m before it", "time (s)", "m");
