@@ -122,7 +122,7 @@ const sb_case sb_case_front_etsin = {
         "percent of the measured\nrange. The measured times are every 20 ms until 0.44 s. The measured front meets "
         "the wall at 0.453 s; the simulated tank is\nlonger. The clock of the experiment is known to be wrong by "
         "about 0.02 s. One shift makes both fronts pass the point\none depth (0.30 m) from the gate at the same "
-        "time. Walls are free-slip; the gate disappears at t = 0.",
+        "time. Walls are smooth; the gate disappears at t = 0.",
     .scene = "dambreak-front/etsin.yaml",
     .headline = "front, mean distance",
     .full = {{.resolution = 0.015, .paper = true, .wen = true},

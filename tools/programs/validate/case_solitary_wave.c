@@ -184,8 +184,8 @@ const sb_case sb_case_solitary_wave = {
                "wave height",
     .method =
         "Reference: celerity of the exact solitary wave of H/h = 0.3; damping by Keulegan (1948) for the viscosity "
-        "of water,\n1e-6 m^2/s. Walls are free-slip: the friction of the bed in Keulegan's formula, below 1 %, is not "
-        "simulated. H = 0.3 m,\nh = 1 m, from x = 10 m to 60 m. A crest is a parabola through 0.5 s of a gauge's "
+        "of water,\n1e-6 m^2/s, which is taken off the loss. Walls have the friction of smooth ones. H = 0.3 m,\nh = 1 "
+        "m, from x = 10 m to 60 m. A crest is a parabola through 0.5 s of a gauge's "
         "elevation; no other filter, no time shift.",
     .scene = "solitary-wave/solitary-wave.yaml",
     .headline = "height loss beyond Keulegan",

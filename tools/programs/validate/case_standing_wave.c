@@ -156,7 +156,7 @@ const sb_case sb_case_standing_wave = {
     .targets = "period: within 1 %; decay: at most 1 % per period, and falling with the spacing; other shapes: at most "
                "10 % of the amplitude",
     .method = "Reference: linear theory with the third-order shift of frequency (Tadjbakhsh and Keller 1960). Walls "
-              "are free-slip, so that there\nare no boundary layers, and water loses nothing that could be seen "
+              "have the friction of smooth ones.\nWhat the viscosity of water takes could not be seen "
               "(2 nu k^2, Lamb 1932, art. 348). h = 1 m, wavelength 2 m, amplitude 0.05 "
               "m. Forty gauges are projected on cos(n pi x/2); the wave is\nn = 2. No filter, no time shift.",
     .scene = "standing-wave/standing-wave.yaml",
