@@ -5,6 +5,7 @@
 #include "output/csv_tables.h"
 #include "output/foam_files.h"
 #include "output/maps.h"
+#include "output/overtopping_rate.h"
 #include "output/particle_format.h"
 #include "output/pvtp.h"
 #include "output/vti.h"
@@ -60,6 +61,7 @@ static const struct {
     {TOP, "control", NULL, ".token", "", 0},
     {TOP, NULL, sb_csv_name, ".csv", "time_s,", GROWS},
     {TOP, "waves", NULL, ".csv", SB_WAVE_TABLE_START, 0},
+    {TOP, "eurotop", NULL, ".csv", SB_EUROTOP_TABLE_START, 0},
     {TOP, SB_VTI_LIST, NULL, ".pvd", "<?xml", 0},
     {TOP, SB_FOAM_LIST, NULL, ".pvd", "<?xml", 0},
     {CHECKPOINTS, SB_CHECKPOINT_SETTLING, NULL, SB_CHECKPOINT_SUFFIX, SB_CHECKPOINT_KIND, 0},

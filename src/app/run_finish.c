@@ -266,8 +266,8 @@ static void write_summary(run *r, sb_status *status, sb_error *error)
     summary.waves = waves;
     sb_overtopping_rate *rates = NULL;
     if (r->measure && sb_overtopping_wanted(r->scene) &&
-        sb_overtopping_rates(r->directory, r->scene, &rates, &reason) != SB_OK)
-        sb_run_warn(r, "overtopping.csv: %s", reason.text);
+        sb_overtopping_write(r->directory, r->scene, &rates, &reason) != SB_OK)
+        sb_run_warn(r, "eurotop.csv: %s", reason.text);
     summary.rates = rates;
     sb_status found = sb_run_path(r, "summary.json", path, &reason);
     if (found == SB_OK && r->measure)

@@ -32,7 +32,7 @@ static void begin(FILE *stream, double time, const char *name)
     }
 }
 
-static void put(FILE *stream, double value)
+void sb_csv_put_number(FILE *stream, double value)
 {
     if (isnan(value))
         fputc(',', stream);
@@ -48,9 +48,9 @@ static void put_fine(FILE *stream, double value)
 
 static void put_vector(FILE *stream, sb_vec3 value)
 {
-    put(stream, value.x);
-    put(stream, value.y);
-    put(stream, value.z);
+    sb_csv_put_number(stream, value.x);
+    sb_csv_put_number(stream, value.y);
+    sb_csv_put_number(stream, value.z);
 }
 
 /* ---- tables ---- */
@@ -83,8 +83,8 @@ static void write_gauges(FILE *stream, const sb_scene *scene, const sb_model *mo
     (void)model;
     const sb_gauge_record *row = &records->gauges[i];
     begin(stream, row->time, scene->measure.gauges[row->gauge].name);
-    put(stream, row->eta);
-    put(stream, row->z);
+    sb_csv_put_number(stream, row->eta);
+    sb_csv_put_number(stream, row->z);
 }
 
 static size_t count_probes(const sb_measure_records *records)
@@ -99,7 +99,7 @@ static void write_probes(FILE *stream, const sb_scene *scene, const sb_model *mo
     const sb_probe_record *row = &records->probes[i];
     begin(stream, row->time, scene->measure.probes[row->probe].name);
     put_vector(stream, row->velocity);
-    put(stream, row->pressure);
+    sb_csv_put_number(stream, row->pressure);
 }
 
 static size_t count_energies(const sb_measure_records *records)
@@ -118,11 +118,11 @@ static void write_energies(FILE *stream, const sb_scene *scene, const sb_model *
                               ledger->contact, ledger->integration, ledger->left,     row->momentum_imbalance,
                               ledger->stress,  ledger->sea,         ledger->sponge,   ledger->tension};
     begin(stream, row->time, NULL);
-    put(stream, row->kinetic);
+    sb_csv_put_number(stream, row->kinetic);
     put_fine(stream, row->potential);
-    put(stream, row->mass);
+    sb_csv_put_number(stream, row->mass);
     put_vector(stream, row->momentum);
-    for (size_t c = 0; c < sizeof changes / sizeof *changes; c++) put(stream, changes[c]);
+    for (size_t c = 0; c < sizeof changes / sizeof *changes; c++) sb_csv_put_number(stream, changes[c]);
 }
 
 static bool has_planes(const sb_scene *scene)
@@ -141,8 +141,8 @@ static void write_flows(FILE *stream, const sb_scene *scene, const sb_model *mod
     (void)model;
     const sb_flow_record *row = &records->flows[i];
     begin(stream, row->time, scene->measure.planes[row->plane].name);
-    put(stream, row->volume);
-    put(stream, row->flux);
+    sb_csv_put_number(stream, row->volume);
+    sb_csv_put_number(stream, row->flux);
 }
 
 static bool has_lines(const sb_scene *scene)
@@ -162,8 +162,8 @@ static void write_runups(FILE *stream, const sb_scene *scene, const sb_model *mo
     const sb_runup_record *row = &records->runups[i];
     begin(stream, row->time, scene->measure.runups[row->line].name);
     put_vector(stream, row->place);
-    put(stream, row->front);
-    put(stream, row->apart);
+    sb_csv_put_number(stream, row->front);
+    sb_csv_put_number(stream, row->apart);
 }
 
 static bool has_reflections(const sb_scene *scene)
@@ -186,7 +186,7 @@ static void write_reflections(FILE *stream, const sb_scene *scene, const sb_mode
         row->from,           (double)row->harmonic,          row->period, row->wavelength, row->incident,
         row->reflected,      row->reflected / row->incident, row->misfit, row->separation, row->bound_incident,
         row->bound_reflected};
-    for (size_t c = 0; c < sizeof values / sizeof *values; c++) put(stream, values[c]);
+    for (size_t c = 0; c < sizeof values / sizeof *values; c++) sb_csv_put_number(stream, values[c]);
 }
 
 static bool has_record(const sb_scene *scene)
@@ -207,13 +207,13 @@ static void write_waters(FILE *stream, const sb_scene *scene, const sb_model *mo
     (void)model;
     const sb_water_record *row = &records->waters[i];
     begin(stream, row->time, scene->measure.planes[row->plane].name);
-    put(stream, row->x);
-    put(stream, row->y);
-    put(stream, row->surface);
-    put(stream, row->bed);
-    for (int j = 0; j < SB_RECORD_LAYERS; j++) put(stream, row->velocity[j].x);
-    for (int j = 0; j < SB_RECORD_LAYERS; j++) put(stream, row->velocity[j].y);
-    for (int j = 0; j < SB_RECORD_LAYERS; j++) put(stream, row->velocity[j].z);
+    sb_csv_put_number(stream, row->x);
+    sb_csv_put_number(stream, row->y);
+    sb_csv_put_number(stream, row->surface);
+    sb_csv_put_number(stream, row->bed);
+    for (int j = 0; j < SB_RECORD_LAYERS; j++) sb_csv_put_number(stream, row->velocity[j].x);
+    for (int j = 0; j < SB_RECORD_LAYERS; j++) sb_csv_put_number(stream, row->velocity[j].y);
+    for (int j = 0; j < SB_RECORD_LAYERS; j++) sb_csv_put_number(stream, row->velocity[j].z);
 }
 
 static bool has_absorbers(const sb_scene *scene)
@@ -234,8 +234,8 @@ static void write_absorbers(FILE *stream, const sb_scene *scene, const sb_model 
     (void)scene;
     const sb_absorber_record *row = &records->absorbers[i];
     begin(stream, row->time, model->bodies[row->body].name);
-    put(stream, row->offset);
-    put(stream, row->drift);
+    sb_csv_put_number(stream, row->offset);
+    sb_csv_put_number(stream, row->drift);
 }
 
 const sb_csv_table sb_csv_tables[] = {

@@ -30,4 +30,7 @@ const char *sb_csv_name(size_t table);
 /* Writes a name as a cell, quoted only where RFC 4180 requires it. */
 void sb_csv_put_name(FILE *stream, const char *name);
 
+/* Writes a comma and a number, or nothing behind the comma for NaN. */
+void sb_csv_put_number(FILE *stream, double value);
+
 #endif

@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "output/csv_tables.h"
 #include "output/series.h"
 #include "physics/eurotop.h"
 
@@ -42,7 +43,26 @@ static sb_overtopping_rate rate_at(const sb_scene *scene, const sb_flow_plane *p
     return found;
 }
 
-sb_status sb_overtopping_rates(const char *directory, const sb_scene *scene, sb_overtopping_rate **rates,
+static sb_status write_all(const char *directory, const sb_scene *scene, const sb_overtopping_rate *rates,
+                           sb_error *error)
+{
+    sb_atomic_file file;
+    const sb_status status = sb_atomic_open_in(&file, directory, "eurotop.csv", error);
+    if (status != SB_OK) return status;
+    fputs(SB_EUROTOP_TABLE_START "to_s,rate_m2_s,eurotop_m2_s,freeboard_m,height_m\n", file.stream);
+    for (size_t p = 0; p < scene->measure.plane_count; p++) {
+        const sb_flow_plane *plane = &scene->measure.planes[p];
+        const sb_overtopping_rate *r = &rates[p];
+        if (!(plane->eurotop.height > 0)) continue;
+        sb_csv_put_name(file.stream, plane->name);
+        const double values[] = {r->from, r->to, r->rate, r->formula, r->freeboard, plane->eurotop.height};
+        for (size_t k = 0; k < sizeof values / sizeof *values; k++) sb_csv_put_number(file.stream, values[k]);
+        fputc('\n', file.stream);
+    }
+    return sb_atomic_commit(&file, 0, error);
+}
+
+sb_status sb_overtopping_write(const char *directory, const sb_scene *scene, sb_overtopping_rate **rates,
                                sb_error *error)
 {
     char path[SB_PATH_MAX];
@@ -55,6 +75,10 @@ sb_status sb_overtopping_rates(const char *directory, const sb_scene *scene, sb_
         made[p] = rate_at(scene, &scene->measure.planes[p], &series);
     sb_series_free(&series);
     if (!made) return sb_fail_memory(error, "rates of overtopping");
-    *rates = made;
-    return SB_OK;
+    status = write_all(directory, scene, made, error);
+    if (status == SB_OK)
+        *rates = made;
+    else
+        sb_free(made);
+    return status;
 }

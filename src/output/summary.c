@@ -112,12 +112,18 @@ static void put_waves(sb_json *json, const sb_summary *s)
         const sb_wave_heights *h = &s->waves[g].heights;
         sb_json_open(json, NULL, '{');
         sb_json_text(json, "gauge", s->scene->measure.gauges[g].name);
+        sb_json_number(json, "from_s", s->waves[g].from);
+        sb_json_number(json, "to_s", s->waves[g].to);
         sb_json_count(json, "waves", h->count);
+        sb_json_number(json, "mean_z_m", h->level);
         sb_json_number(json, "mean_height_m", h->mean);
         sb_json_number(json, "significant_height_m", h->significant);
         sb_json_number(json, "highest_m", h->highest);
         sb_json_number(json, "mean_period_s", h->period);
         sb_json_number(json, "spectral_height_m", h->spectral);
+        sb_json_open(json, "harmonics_m", '[');
+        for (int k = 0; k < sb_wave_table_harmonics(s->scene); k++) sb_json_number(json, NULL, s->waves[g].harmonic[k]);
+        sb_json_close(json);
         sb_json_close(json);
     }
     sb_json_close(json);

@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "output/csv_tables.h"
 #include "output/series.h"
 #include "physics/reflection.h"
 
@@ -62,22 +63,14 @@ static sb_status find_harmonics(const sb_scene *scene, const gauge_rows *rows, s
     return SB_OK;
 }
 
-static void put(FILE *stream, double value)
-{
-    if (isfinite(value))
-        fprintf(stream, ",%.9g", value);
-    else
-        fputc(',', stream);
-}
-
 static void put_row(FILE *stream, const char *gauge, const sb_gauge_waves *waves)
 {
     const sb_wave_heights *h = &waves->heights;
     const double values[] = {waves->from,    waves->to,  (double)h->count, h->level,   h->mean,
                              h->significant, h->highest, h->period,        h->spectral};
     fputs(gauge, stream);
-    for (size_t k = 0; k < sizeof values / sizeof *values; k++) put(stream, values[k]);
-    for (int k = 0; k < SB_WAVE_HARMONICS; k++) put(stream, waves->harmonic[k]);
+    for (size_t k = 0; k < sizeof values / sizeof *values; k++) sb_csv_put_number(stream, values[k]);
+    for (int k = 0; k < SB_WAVE_HARMONICS; k++) sb_csv_put_number(stream, waves->harmonic[k]);
     fputc('\n', stream);
 }
 

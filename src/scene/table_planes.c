@@ -74,7 +74,7 @@ static const sb_key plane_keys[] = {
     {.name = "z_max", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_flow_plane, z_max), .unit = "m",
      SB_KEY_ANY, .derived = "z of domain.max", .doc = "Upper edge of the plane."},
     {.name = "eurotop", .type = SB_KEY_BLOCK, SB_KEY_AT(sb_flow_plane, eurotop), .table = &eurotop_table,
-     .doc = "Compares the mean rate of overtopping with EurOtop 2018, in `summary.json`."},
+     .doc = "Compares the mean rate of overtopping with EurOtop 2018, in `eurotop.csv` and `summary.json`."},
     {.name = "record", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_flow_plane, record), .fallback = "false",
      .doc = "Whether surface and velocities over depth along the plane are written to `record.csv`, for `sea.source: "
             "record`."},

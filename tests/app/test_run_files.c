@@ -9,6 +9,7 @@
 #include "scene/scene.h"
 
 #include <ftw.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -464,24 +465,56 @@ static void unwritable_out_fails(void **state)
     }
 }
 
+/* The numbers of a row from a cell on. */
+static void read_cells(const char *cell, double *values, size_t count)
+{
+    for (size_t k = 0; k < count; k++) {
+        char *end;
+        values[k] = strtod(cell, &end);
+        cell = end + (*end == ',');
+    }
+}
+
+/* Waves of a box of water that sloshes: waves.csv and eurotop.csv have the figures of the summary. */
+static void waves_are_in_tables_and_in_the_summary(void **state)
+{
+    (void)state;
+    write_text("slosh.yaml", "title: t\ndimensions: 2\nresolution: 0.1\nduration: 0.8\noutput: {plots: false}\n"
+                             "domain: {min: [0, 0], max: [2, 1.5]}\n"
+                             "water: {level: 0.5, seed: [0.1, 0.1], boxes: [{min: [0, 0.5], max: [0.5, 1]}]}\n"
+                             "measure: {interval: 0.02, gauges: [{name: end, x: 0.1}], waves: {period: 0.4}, "
+                             "planes: [{name: middle, from: [1], z_min: 0.6, eurotop: {height: 0.3}}]}\n");
+    RUN_AND_FORGET(0, "run", "slosh.yaml", "--out=slosh", "--quiet", "--overwrite");
+    char *summary = text_of("slosh/summary.json"), *waves = text_of("slosh/waves.csv"),
+         *rates = text_of("slosh/eurotop.csv");
+    double column[14], harmonic[5], rate[6];
+    read_cells(next_line(waves) + strlen("end,"), column, 14);
+    const char *list = strstr(summary, "\"harmonics_m\"");
+    assert_non_null(list);
+    read_cells(strchr(list, '[') + 1, harmonic, 5);
+    for (size_t k = 0; k < 5; k++) assert_near(harmonic[k], column[9 + k], 1e-6 * column[9]);
+    assert_true(harmonic[0] > 0.001);
+    assert_near(json_number_of("slosh/summary.json", "mean_z_m"), column[3], 1e-6);
+    read_cells(next_line(rates) + strlen("middle,"), rate, 6);
+    assert_near(rate[2], json_number_of("slosh/summary.json", "rate_m2_s"), 1e-6 * fabs(rate[2]));
+    assert_near(rate[3], json_number_of("slosh/summary.json", "eurotop_m2_s"), 1e-6 * rate[3]);
+    assert_true(rate[0] == 0 && rate[1] == 0.8 && rate[4] > 0 && rate[5] == 0.3);
+    sb_free(summary);
+    sb_free(waves);
+    sb_free(rates);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_file_is_there),
-        cmocka_unit_test(scene_is_written_as_resolved),
-        cmocka_unit_test(log_is_lines_of_objects),
-        cmocka_unit_test(forces_have_a_row_per_body_and_interval),
-        cmocka_unit_test(forces_add_up_to_the_impulse),
-        cmocka_unit_test(gauges_are_empty_where_dry),
-        cmocka_unit_test(probes_have_all_columns),
-        cmocka_unit_test(particle_files_and_their_list),
-        cmocka_unit_test(summary_has_its_keys),
-        cmocka_unit_test(until_set_and_preset_count),
-        cmocka_unit_test(periodic_sides_run),
-        cmocka_unit_test(an_earlier_run_leaves_nothing),
-        cmocka_unit_test(out_has_a_default),
-        cmocka_unit_test(out_keeps_the_dots_of_a_name),
-        cmocka_unit_test(a_refused_run_keeps_the_earlier_run),
+        cmocka_unit_test(every_file_is_there),           cmocka_unit_test(scene_is_written_as_resolved),
+        cmocka_unit_test(log_is_lines_of_objects),       cmocka_unit_test(forces_have_a_row_per_body_and_interval),
+        cmocka_unit_test(forces_add_up_to_the_impulse),  cmocka_unit_test(gauges_are_empty_where_dry),
+        cmocka_unit_test(probes_have_all_columns),       cmocka_unit_test(particle_files_and_their_list),
+        cmocka_unit_test(summary_has_its_keys),          cmocka_unit_test(waves_are_in_tables_and_in_the_summary),
+        cmocka_unit_test(until_set_and_preset_count),    cmocka_unit_test(periodic_sides_run),
+        cmocka_unit_test(an_earlier_run_leaves_nothing), cmocka_unit_test(out_has_a_default),
+        cmocka_unit_test(out_keeps_the_dots_of_a_name),  cmocka_unit_test(a_refused_run_keeps_the_earlier_run),
         cmocka_unit_test(unwritable_out_fails),
     };
     return cmocka_run_group_tests(tests, setup, program_teardown);

@@ -29,7 +29,7 @@ static void rates_are_means_per_metre(void **state)
     assert_true(sb_overtopping_wanted(&scene));
     sb_overtopping_rate *rates;
     sb_error error = {0};
-    if (sb_overtopping_rates(SB_BINARY_DIR, &scene, &rates, &error) != SB_OK) fail_msg("%s", error.text);
+    if (sb_overtopping_write(SB_BINARY_DIR, &scene, &rates, &error) != SB_OK) fail_msg("%s", error.text);
     assert_true(isnan(rates[0].rate) && isnan(rates[0].formula));
     /* From 1 to 4 s, 6 m^3 over 5 m. */
     assert_near(rates[1].from, 1, 1e-12);
@@ -40,8 +40,21 @@ static void rates_are_means_per_metre(void **state)
     assert_true(isnan(rates[2].rate));
     assert_near(rates[2].formula, sb_eurotop_slope(0.4, 0.3, 0.5, 2, 9.81), 1e-15);
     sb_free(rates);
+    char line[200], expected[200];
+    file = fopen(SB_BINARY_DIR "/eurotop.csv", "r");
+    assert_non_null(file);
+    assert_non_null(fgets(line, sizeof line, file));
+    assert_string_equal(line, "plane,from_s,to_s,rate_m2_s,eurotop_m2_s,freeboard_m,height_m\n");
+    assert_non_null(fgets(line, sizeof line, file));
+    snprintf(expected, sizeof expected, "crest,1,4,0.4,%.9g,0.3,0.4\n", sb_eurotop_vertical(0.4, 0.3, 9.81));
+    assert_string_equal(line, expected);
+    assert_non_null(fgets(line, sizeof line, file));
+    snprintf(expected, sizeof expected, "late,,,,%.9g,0.3,0.4\n", sb_eurotop_slope(0.4, 0.3, 0.5, 2, 9.81));
+    assert_string_equal(line, expected);
+    assert_null(fgets(line, sizeof line, file));
+    assert_int_equal(fclose(file), 0);
     assert_int_equal(remove(SB_BINARY_DIR "/overtopping.csv"), 0);
-    assert_int_not_equal(sb_overtopping_rates(SB_BINARY_DIR, &scene, &rates, &error), SB_OK);
+    assert_int_not_equal(sb_overtopping_write(SB_BINARY_DIR, &scene, &rates, &error), SB_OK);
 }
 
 int main(void)
