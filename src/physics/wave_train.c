@@ -45,6 +45,7 @@ sb_status sb_wave_train_sum(sb_wave_train *train, const char *path, sb_error *er
     sb_error why = {0};
     for (size_t i = 0; i < train->count; i++) sb_sum_height_add(&all, train->part[i].amplitude, train->part[i].number);
     train->facts.height = sb_sum_height_of(&all);
+    train->facts.height_name = "significant height";
     if (sb_sum_height_check(&all, train->depth, &why) == SB_OK) return SB_OK;
     return sb_fail(error, SB_BAD_INPUT, "%.500s: %.300s", path, why.text);
 }

@@ -36,8 +36,8 @@ typedef struct sb_wave_train {
 sb_wave_train *sb_wave_train_create(const sb_wavemaker_parameters *parameters, size_t count);
 /* Sets a part that is a free linear wave of amplitude a, and its stroke. */
 void sb_wave_train_set(sb_wave_train *train, size_t i, double amplitude, double omega, double phase);
-/* Sets facts.height to that of the sum of all parts, by the rule of irregular waves. SB_BAD_INPUT, of the file that has
-   the waves, if the sum breaks. */
+/* Sets facts.height and its name to those of the sum of all parts, by the rule of irregular waves. SB_BAD_INPUT, of the
+   file that has the waves, if the sum breaks. */
 sb_status sb_wave_train_sum(sb_wave_train *train, const char *path, sb_error *error);
 /* Ends the creation: sets what follows from the parts. */
 void sb_wave_train_complete(sb_wave_train *train);

@@ -74,7 +74,6 @@ static sb_status create(const sb_wavemaker_parameters *p, void **state, sb_error
         return status;
     }
     train->facts.theory = "linear sum";
-    train->facts.height_name = "significant height";
     sb_wave_train_complete(train);
     *state = train;
     return SB_OK;

@@ -130,7 +130,6 @@ static sb_status create(const sb_wavemaker_parameters *p, void **state, sb_error
     if (train->ramp < 0) train->ramp = 0;
     train->lasts = fmin(train->lasts, length);
     train->facts.theory = "linear sum, by a measured surface";
-    train->facts.height_name = "significant height";
     sb_wave_train_complete(train);
     *state = train;
     return SB_OK;

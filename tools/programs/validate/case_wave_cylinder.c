@@ -164,14 +164,15 @@ static void compare(const sb_case_run *runs, const sb_figures *of_each, size_t c
 }
 
 /* The force that is expected of the finest run with a cylinder: measured, or by theory for the wave without it. NULL:
-   there is no such run. */
+   there is no run, or none without the cylinder beside it. */
 static sb_curve *expected_force(const sb_case_run *runs, size_t count)
 {
     enum { POINTS = 60 };
     const sb_case_run *with = finest(runs, count), *without = with ? alone(runs, count, with) : NULL;
     double lag, rms;
+    if (with && *(const aim *)with->of->what == BY_EXPERIMENT)
+        return measured_force(with, whole(with, "Fx_N"), &lag, &rms);
     if (!without) return NULL;
-    if (*(const aim *)with->of->what == BY_EXPERIMENT) return measured_force(with, whole(with, "Fx_N"), &lag, &rms);
     const double period = with->scene->wavemakers[0].law.period, omega = 2 * M_PI / period;
     const sb_wave_fit eta = fit_of(without, sb_wave_fit_gauge(without, "centre"));
     const sb_cylinder_load load = theory_of(with, 2 * eta.amplitude[0]);

@@ -129,7 +129,6 @@ const sb_result *sb_results_finest(const sb_case_results *results)
     for (size_t i = 0; i < results->count; i++) {
         const sb_result *r = &results->runs[i];
         if (r->state != SB_RESULT_DONE || r->request.preset || r->request.seed != 1) continue;
-        /* a variant, such as the wave without the cylinder, only if the case itself has no run */
         if (!r->request.plan->variant || !finest || finest->request.plan->variant) finest = r;
     }
     return finest;

@@ -41,7 +41,8 @@ void sb_case_results_free(sb_case_results *results);
 
 /* The judged run with seed 1; NULL: not done. */
 const sb_result *sb_results_judged(const sb_case_results *results);
-/* The finest run of the default preset with seed 1; NULL: none is done. */
+/* The finest run of the default preset with seed 1; of a variant, such as the wave without the cylinder, only if the
+   case itself has none. NULL: none is done. */
 const sb_result *sb_results_finest(const sb_case_results *results);
 /* Judges the i-th figure of the judged run over its seeds. */
 sb_judgement sb_results_judge(const sb_case_results *results, size_t i);
