@@ -123,7 +123,7 @@ void sb_sim_save(const sb_sim *sim, sb_archive_out *out)
         sb_put_real(out, sim->walls.moving[m].displacement);
         sb_put_real(out, sim->walls.moving[m].next_displacement);
         sb_put_vector(out, sim->walls.moving[m].velocity);
-        if (sim->walls.moving[m].commanded) sb_put_real(out, sim->walls.moving[m].paddle.start);
+        if (sim->walls.moving[m].law->commanded) sb_put_real(out, sim->walls.moving[m].law->paddle.start);
     }
     sb_absorbers_save(sim, out);
     sb_foam_save(sim, out);
@@ -200,7 +200,7 @@ static void take_start(const sb_sim *sim, sb_moving_body *moving, sb_archive_in 
     if (!passed && !(isinf(start) && start > 0))
         sb_archive_refuse(in, "a wave maker was started at t = %g s, expected 0 to %g s or never", start,
                           sim->state.time);
-    moving->paddle.start = start;
+    moving->law->paddle.start = start;
 }
 
 static void take_moving(sb_sim *sim, sb_archive_in *in)
@@ -212,7 +212,7 @@ static void take_moving(sb_sim *sim, sb_archive_in *in)
         moving->displacement = sb_take_real(in);
         moving->next_displacement = sb_take_real(in);
         moving->velocity = sb_take_vector(in);
-        if (moving->commanded) take_start(sim, moving, in);
+        if (moving->law->commanded) take_start(sim, moving, in);
         const double farthest = fmax(fabs(moving->displacement), fabs(moving->next_displacement));
         if (farthest < FARTHEST * sim->space.quantum && !isnan(moving->displacement) &&
             !isnan(moving->next_displacement) && sb_isfinite(moving->velocity))

@@ -15,18 +15,27 @@ static double cfl_step(const sb_numerics *n, const sb_constants *c, double speed
     return fmin(n->cfl * h / speed, rest);
 }
 
+/* The largest speed that the law of a wave maker gives a body with this share of its motion, or with absorption. */
+static double top_speed_of(const sb_sim *sim, const sb_moving_law *law, double probe)
+{
+    double speed = 0;
+    if (!law->paddle.kind) return 0;
+    const double moved = sb_paddle_displacement(&law->paddle, sim->state.time + probe) -
+                         sb_paddle_displacement(&law->paddle, sim->state.time);
+    for (size_t m = 0; m < sim->walls.moving_count; m++) {
+        const sb_moving_body *moving = &sim->walls.moving[m];
+        const double back = moving->absorber ? fabs(moving->absorber->state.speed) : 0;
+        if (moving->law == law) speed = fmax(speed, fabs(moving->share * moved) / probe + back);
+    }
+    return speed;
+}
+
 static double top_speed(const sb_sim *sim)
 {
     double speed = sim->state.max_speed;
-    double probe = 1e-3 * (double)sim->constant.spacing / (double)sim->constant.wave_speed;
-    for (size_t m = 0; m < sim->walls.moving_count && sim->policy->runs; m++) {
-        const sb_paddle *paddle = &sim->walls.moving[m].paddle;
-        double moved =
-            sb_paddle_displacement(paddle, sim->state.time + probe) - sb_paddle_displacement(paddle, sim->state.time);
-        const struct sb_absorber *absorber = sim->walls.moving[m].absorber;
-        speed = fmax(speed,
-                     fabs(sim->walls.moving[m].share * moved) / probe + (absorber ? fabs(absorber->state.speed) : 0));
-    }
+    const double probe = 1e-3 * (double)sim->constant.spacing / (double)sim->constant.wave_speed;
+    for (size_t w = 0; w < sim->scene->wavemaker_count && sim->policy->runs; w++)
+        speed = fmax(speed, top_speed_of(sim, &sim->walls.laws[w], probe));
     return speed;
 }
 

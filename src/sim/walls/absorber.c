@@ -41,14 +41,15 @@ sb_status sb_absorber_create(sb_sim *sim, size_t body, sb_moving_body *moving, s
     if (!a) return sb_fail_memory(error, "an absorbing paddle");
     a->distance = SB_ABSORB_DISTANCE * sim->model->spacing;
     a->reach = use->law.reach;
-    a->period = moving->paddle.kind->facts(moving->paddle.state)->period;
+    a->period = moving->law->paddle.kind->facts(moving->law->paddle.state)->period;
     const sb_mesh *mesh = &sim->model->bodies[body].mesh;
     a->face = sb_mesh_front(mesh, use->direction);
     if (sim->model->bodies[body].plates > 0)
         sb_plate_find(sim, body, a);
     else
         find_extent(&sim->scene->domain, mesh, use->direction, a);
-    return sb_paddle_fit_absorption(&use->law, &moving->paddle, a->distance, &a->filter, error);
+    if (moving->law->filter.gain > 0) return SB_OK; /* fitted for another plate */
+    return sb_paddle_fit_absorption(&use->law, &moving->law->paddle, a->distance, &moving->law->filter, error);
 }
 
 double sb_column_weight(double x)
@@ -164,12 +165,11 @@ double sb_absorber_advance(sb_sim *sim, sb_moving_body *moving)
     if (!a->known) a->still = a->depth - sb_absorber_raised(sim, moving, a->from[0], a->from[1]);
     a->known = true;
     if (a->plates > 0 && a->still == 0) return a->state.offset; /* a plate before land stays at its law */
-    const sb_absorbing_input input = {
-        .surface = a->depth - a->still,
-        .expected = moving->paddle.kind->surface(moving->paddle.state, sim->state.time - moving->paddle.start),
-        .law_speed = (moving->next_displacement - law) / dt,
-        .reach = a->reach};
-    if (sb_absorbing_advance(&a->filter, &input, dt, &a->state)) a->limited++;
+    const sb_absorbing_input input = {.surface = a->depth - a->still,
+                                      .expected = moving->law->surface,
+                                      .law_speed = (moving->next_displacement - law) / dt,
+                                      .reach = a->reach};
+    if (sb_absorbing_advance(&moving->law->filter, &input, dt, &a->state)) a->limited++;
     a->farthest = fmax(a->farthest, fabs(a->state.offset));
     note_drift(a, dt);
     return a->state.offset;

@@ -7,7 +7,6 @@
 #include "sim/simulation.h"
 
 typedef struct sb_absorber {
-    sb_absorbing_filter filter;
     double face, distance;   /* m along the direction: face at rest; place ahead of it where its water is measured */
     double side[2], from[2]; /* unit vector along the face in x and y; its extent along that within the domain, m */
     double reach;            /* m */

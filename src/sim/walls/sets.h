@@ -2,6 +2,7 @@
 #ifndef SB_SIM_WALL_SETS_H
 #define SB_SIM_WALL_SETS_H
 
+#include "physics/absorbing.h"
 #include "physics/wavemaker.h"
 #include "sim/search/cells.h"
 #include "sim/sim.h"
@@ -27,11 +28,20 @@ enum { SB_STATIC, SB_MOVING, SB_WALL_SETS };
 
 struct sb_absorber; /* sim/walls/absorber.h */
 
-/* A moving body: its law of motion and its present displacement. */
+/* The law of a wave maker: one for all bodies that it moves, so that a sum of many waves is evaluated once per step and
+   not once per push-plate. */
+typedef struct sb_moving_law {
+    sb_paddle paddle;           /* kind NULL: it moves no body */
+    sb_absorbing_filter filter; /* of a paddle that absorbs */
+    bool commanded;             /* its start waits for a command, or one gave it: it is saved */
+    double here, there;         /* m, its displacement at t and t + dt; of the present step only */
+    double surface;             /* m, the waves of a paddle that absorbs, at t; of the present step only */
+} sb_moving_law;
+
+/* A moving body and its present displacement. */
 typedef struct sb_moving_body {
-    sb_paddle paddle;
+    sb_moving_law *law;
     struct sb_absorber *absorber; /* NULL: it only follows its law */
-    bool commanded;               /* its start waits for a command, or one gave it: it is saved */
     sb_vec3 direction;
     double share;                           /* of the law's motion that it makes */
     double displacement, next_displacement; /* m, at t and t + dt */
@@ -92,6 +102,7 @@ typedef struct sb_walls {
     sb_boundary boundary;
     sb_wall_set set[SB_WALL_SETS];
     sb_moving_rest rest;
+    sb_moving_law *laws; /* one per wave maker of the scene */
     size_t moving_count;
     sb_moving_body *moving;   /* bodies */
     uint32_t *moving_of_body; /* model body -> index into moving, UINT32_MAX: static */

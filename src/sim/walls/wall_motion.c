@@ -28,14 +28,30 @@ static void place(sb_sim *sim)
     }
 }
 
+/* Evaluates the laws at the step's begin and end. Nothing moves while the water settles. */
+static void evaluate_laws(sb_sim *sim)
+{
+    const double time = sim->state.time, dt = sim->state.time_step;
+    for (size_t w = 0; w < sim->scene->wavemaker_count; w++) {
+        sb_moving_law *law = &sim->walls.laws[w];
+        const sb_paddle *paddle = &law->paddle;
+        if (!paddle->kind) continue;
+        law->here = sim->policy->runs ? sb_paddle_displacement(paddle, time) : 0;
+        law->there = sim->policy->runs ? sb_paddle_displacement(paddle, time + dt) : 0;
+        if (sim->policy->runs && law->filter.gain > 0)
+            law->surface = paddle->kind->surface(paddle->state, time - paddle->start);
+    }
+}
+
 sb_status sb_stage_walls(sb_sim *sim, sb_error *error)
 {
-    double time = sim->state.time, dt = sim->state.time_step;
+    const double dt = sim->state.time_step;
     bool moved = false;
+    evaluate_laws(sim);
     for (size_t m = 0; m < sim->walls.moving_count; m++) {
         sb_moving_body *moving = &sim->walls.moving[m];
-        double here = sim->policy->runs ? moving->share * sb_paddle_displacement(&moving->paddle, time) : 0;
-        double there = sim->policy->runs ? moving->share * sb_paddle_displacement(&moving->paddle, time + dt) : 0;
+        double here = moving->share * moving->law->here;
+        const double there = moving->share * moving->law->there;
         if (moving->absorber) here += moving->absorber->state.offset;
         moved |= here != moving->displacement;
         moving->displacement = here;
@@ -56,17 +72,13 @@ sb_status sb_sim_trigger(sb_sim *sim, size_t wavemaker, sb_error *error)
     if (sim->state.settle.under_way)
         return sb_fail(error, SB_BAD_INPUT, "wave maker \"%s\": the water settles, expected a command after that",
                        name);
-    bool found = false;
-    for (size_t b = 0; b < sim->model->body_count; b++) {
-        if (sim->model->bodies[b].wavemaker != (int)wavemaker) continue;
-        sb_paddle *paddle = &sim->walls.moving[sim->walls.moving_of_body[b]].paddle;
-        if (isfinite(paddle->start))
-            return sb_fail(error, SB_BAD_INPUT, "wave maker \"%s\": its motion began or begins at t = %.17g s", name,
-                           paddle->start);
-        paddle->start = sim->state.time;
-        found = true;
-    }
-    return found ? SB_OK : sb_fail(error, SB_BAD_INPUT, "wave maker \"%s\": moves no body", name);
+    sb_paddle *paddle = &sim->walls.laws[wavemaker].paddle;
+    if (!paddle->kind) return sb_fail(error, SB_BAD_INPUT, "wave maker \"%s\": moves no body", name);
+    if (isfinite(paddle->start))
+        return sb_fail(error, SB_BAD_INPUT, "wave maker \"%s\": its motion began or begins at t = %.17g s", name,
+                       paddle->start);
+    paddle->start = sim->state.time;
+    return SB_OK;
 }
 
 sb_status sb_walls_restore(sb_sim *sim, sb_error *error)

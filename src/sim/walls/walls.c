@@ -59,21 +59,31 @@ static int copy_set(sb_sim *sim, bool moving, sb_wall_set *set)
     return sim->needs.dynamic_walls ? sb_boundary_layers(sim, set) : 0;
 }
 
+static sb_status create_law(const sb_wavemaker_parameters *parameters, sb_moving_law *law, sb_error *error)
+{
+    sb_paddle paddle;
+    const sb_status status = sb_paddle_create(parameters, &paddle, error);
+    if (status == SB_OK) *law = (sb_moving_law){.paddle = paddle, .commanded = isinf(parameters->start)};
+    return status;
+}
+
 sb_status sb_paddles_create(sb_sim *sim, sb_error *error)
 {
     const sb_model *model = sim->model;
+    sim->walls.laws = sb_alloc(sim->scene->wavemaker_count, sizeof *sim->walls.laws);
     sim->walls.moving_of_body = sb_alloc(model->body_count, sizeof *sim->walls.moving_of_body);
     sim->walls.moving = sb_alloc(model->body_count, sizeof *sim->walls.moving);
-    if (!sim->walls.moving_of_body || !sim->walls.moving) return sb_fail_memory(error, "moving bodies");
+    if (!sim->walls.laws || !sim->walls.moving_of_body || !sim->walls.moving)
+        return sb_fail_memory(error, "moving bodies");
     for (size_t b = 0; b < model->body_count; b++) {
         sim->walls.moving_of_body[b] = UINT32_MAX;
         if (model->bodies[b].wavemaker < 0) continue;
         const sb_wavemaker_use *use = &sim->scene->wavemakers[model->bodies[b].wavemaker];
         sb_moving_body *moving = &sim->walls.moving[sim->walls.moving_count];
+        moving->law = &sim->walls.laws[model->bodies[b].wavemaker];
         moving->direction = use->direction;
         moving->share = 1 - model->bodies[b].held;
-        moving->commanded = isinf(use->law.start);
-        const sb_status status = sb_paddle_create(&use->law, &moving->paddle, error);
+        const sb_status status = moving->law->paddle.kind ? SB_OK : create_law(&use->law, moving->law, error);
         if (status != SB_OK) return status;
         sim->walls.moving_of_body[b] = (uint32_t)sim->walls.moving_count++;
     }
@@ -145,10 +155,10 @@ void sb_walls_destroy(sb_sim *sim)
         sb_free(sim->walls.set[s].near);
         sb_cells_free(&sim->walls.set[s].cells);
     }
-    for (size_t m = 0; m < sim->walls.moving_count; m++) {
-        sb_paddle_destroy(&sim->walls.moving[m].paddle);
-        sb_free(sim->walls.moving[m].absorber);
-    }
+    for (size_t m = 0; m < sim->walls.moving_count; m++) sb_free(sim->walls.moving[m].absorber);
+    for (size_t w = 0; sim->walls.laws && w < sim->scene->wavemaker_count; w++)
+        if (sim->walls.laws[w].paddle.kind) sb_paddle_destroy(&sim->walls.laws[w].paddle);
+    sb_free(sim->walls.laws);
     sb_free(sim->walls.moving);
     sb_free(sim->walls.moving_of_body);
     sb_walls_share_free(&sim->walls.share);
