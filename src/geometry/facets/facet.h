@@ -23,12 +23,17 @@ typedef struct sb_facet_edge {
     sb_vec3 wall; /* of a concave edge: unit normal of what stands there; 0 if it is not known */
 } sb_facet_edge;
 
+/* When water meets a facet: of a body that moves, some only while it stands at its place at rest, or has left it. The
+   lower face of a gate is hidden by the floor on which it stands, and its edges are free once it is lifted. */
+typedef enum sb_facet_when { SB_FACET_ALWAYS, SB_FACET_AT_REST, SB_FACET_AWAY } sb_facet_when;
+
 typedef struct sb_facet {
     sb_vec3 normal;       /* unit, towards the water */
     double distance;      /* m, normal . x on the plane */
     uint32_t body;        /* index into model.bodies */
     uint32_t edge, edges; /* [edge, edge + edges) of sb_facets.edges; none: a whole side of the domain */
     bool both;            /* water may be on both sides: a facet of a plate */
+    sb_facet_when when;
 } sb_facet;
 
 typedef struct sb_facets {

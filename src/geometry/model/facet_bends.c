@@ -89,8 +89,9 @@ static bool goes_on(const sb_facet_builder *b, size_t self, sb_vec3 at)
 /* Whether an edge lies in a side, or beyond it, from end to end. */
 static bool along_side(const sb_facet_builder *b, int side, const sb_facet_edge *edge)
 {
-    return sb_facets_is_wall(b, side) && fmax(sb_facets_from_side(b, side, edge->from),
-                                              sb_facets_from_side(b, side, edge->to)) < TOUCHES * b->spacing;
+    const sb_vec3 from = sb_facets_place(b, SIZE_MAX, edge->from), to = sb_facets_place(b, SIZE_MAX, edge->to);
+    return sb_facets_is_wall(b, side) &&
+           fmax(sb_facets_from_side(b, side, from), sb_facets_from_side(b, side, to)) < TOUCHES * b->spacing;
 }
 
 /* Whether another body than the facet's own contains a point. */
@@ -98,7 +99,7 @@ static bool buried(const sb_facet_builder *b, size_t own, sb_vec3 at)
 {
     for (size_t body = 0; body < b->model->body_count; body++)
         if (body != own && sb_facets_has_mesh(b, body) && b->space->solid[body] &&
-            sb_solid_contains(b->space->solid[body], at))
+            sb_solid_contains(b->space->solid[body], sb_facets_place(b, body, at)))
             return true;
     return false;
 }
@@ -111,7 +112,8 @@ static sb_vec3 middle_within(const sb_facet_builder *b, size_t own, const sb_fac
     double low = 0, high = 1;
     for (int side = 0; side < SB_SIDES; side++) {
         if (!sb_facets_is_wall(b, side)) continue;
-        const double from = sb_facets_from_side(b, side, edge->from), to = sb_facets_from_side(b, side, edge->to);
+        const double from = sb_facets_from_side(b, side, sb_facets_place(b, SIZE_MAX, edge->from)),
+                     to = sb_facets_from_side(b, side, sb_facets_place(b, SIZE_MAX, edge->to));
         if (from < 0 && to > 0) low = fmax(low, from / (from - to));
         if (from > 0 && to < 0) high = fmin(high, from / (from - to));
     }
@@ -139,9 +141,10 @@ sb_bend sb_facets_bend(const sb_facet_builder *b, size_t self, const sb_facet *f
     for (size_t body = 0; body < b->model->body_count; body++) {
         if (!sb_facets_has_mesh(b, body) || !b->space->solid[body]) continue;
         sb_bend bend;
+        const sb_vec3 place = sb_facets_place(b, body, at);
         edge->wall = (sb_vec3){0};
-        if (!bend_towards(b, body, facet, edge, at, &bend)) {
-            if (body == facet->body || !sb_solid_contains(b->space->solid[body], at)) continue;
+        if (!bend_towards(b, body, facet, edge, place, &bend)) {
+            if (body == facet->body || !sb_solid_contains(b->space->solid[body], place)) continue;
             bend = SB_BEND_CONCAVE;
         }
         if (bend == SB_BEND_CONCAVE) return body != facet->body && goes_on(b, self, at) ? SB_BEND_SOFT : bend;

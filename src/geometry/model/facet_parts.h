@@ -16,7 +16,9 @@ typedef struct sb_facet_builder {
     bool *plate;          /* by body: water may be on both sides of its surface */
     sb_outlines *of_body; /* by body; of the domain's sides, by side: of_side */
     sb_outlines of_side[SB_SIDES];
-    const sb_outlines *outlines; /* of the present body */
+    size_t body;                 /* the present one */
+    sb_vec3 shift;               /* m, of this body from its place at rest */
+    const sb_outlines *outlines; /* of this body */
     const bool *kept;            /* of them, those that are not hidden */
     sb_facets *out;
     size_t capacity, edge_capacity;
@@ -26,6 +28,17 @@ typedef struct sb_facet_builder {
 static inline bool sb_facets_has_mesh(const sb_facet_builder *b, size_t body)
 {
     return b->model->bodies[body].mesh.triangle_count > 0;
+}
+
+/* Where a place on the present body is, seen from another body or the domain's sides (SIZE_MAX). What moves by the same
+   law keeps its place beside it. */
+static inline sb_vec3 sb_facets_place(const sb_facet_builder *b, size_t other, sb_vec3 at)
+{
+    const sb_model_body *bodies = b->model->bodies;
+    const bool along =
+        other != SIZE_MAX &&
+        (other == b->body || (bodies[other].wavemaker >= 0 && bodies[other].wavemaker == bodies[b->body].wavemaker));
+    return along ? at : sb_add(at, b->shift);
 }
 
 /* facet_plates.c: finds the bodies whose surface is open, so that water may be on both sides of it: b->plate. Returns

@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "geometry/model/facet_parts.h"
 #include "geometry/solid/solid.h"
+#include "physics/paddle_way.h"
 
 #include <math.h>
 
@@ -16,6 +17,7 @@ enum { SAMPLES_MAX = 64 };
 
 static bool outside_walls(const sb_facet_builder *b, sb_vec3 at)
 {
+    at = sb_facets_place(b, SIZE_MAX, at);
     for (int side = 0; side < SB_SIDES; side++)
         if (sb_facets_is_wall(b, side) && sb_facets_from_side(b, side, at) < 0) return true;
     return false;
@@ -27,7 +29,8 @@ static bool covered(const sb_facet_builder *b, sb_vec3 at, size_t body)
     if (outside_walls(b, at)) return true;
     for (size_t other = 0; other < b->model->body_count; other++)
         if (other != body && sb_facets_has_mesh(b, other) && b->space->solid[other] &&
-            b->model->bodies[other].wavemaker < 0 && sb_solid_contains(b->space->solid[other], at))
+            b->model->bodies[other].wavemaker < 0 &&
+            sb_solid_contains(b->space->solid[other], sb_facets_place(b, other, at)))
             return true;
     return false;
 }
@@ -102,7 +105,8 @@ static uint32_t join_edges(sb_facet_edge *edge, uint32_t count)
     return left;
 }
 
-static int add(sb_facet_builder *b, size_t outline, size_t body)
+/* Adds a facet that water meets where the body is now. */
+static int add(sb_facet_builder *b, size_t outline, size_t body, sb_facet_when when)
 {
     sb_facets *out = b->out;
     const sb_outline *o = &b->outlines->outline[outline];
@@ -111,9 +115,13 @@ static int add(sb_facet_builder *b, size_t outline, size_t body)
         return -1;
     const bool flat = b->model->dimensions == 2;
     sb_facet *f = &out->facets[out->count++];
-    *f = (sb_facet){o->normal,          sb_dot(o->normal, o->corner[0]),
-                    (uint32_t)body,     (uint32_t)out->edge_count,
-                    (uint32_t)o->count, b->plate[body]};
+    *f = (sb_facet){o->normal,
+                    sb_dot(o->normal, o->corner[0]),
+                    (uint32_t)body,
+                    (uint32_t)out->edge_count,
+                    (uint32_t)o->count,
+                    b->plate[body],
+                    when};
     for (size_t k = 0; k < o->count; k++) {
         const sb_vec3 from = o->corner[k], to = flat ? from : o->corner[(k + 1) % o->count];
         const sb_vec3 along = flat ? sb_sub(o->corner[1 - k], from) : sb_cross(o->normal, sb_sub(to, from));
@@ -127,21 +135,87 @@ static int add(sb_facet_builder *b, size_t outline, size_t body)
     return 0;
 }
 
-/* Adds the facets of a body that water can meet. */
-static int add_outlines(sb_facet_builder *b, const sb_outlines *outlines, size_t body)
+static void find_kept(const sb_facet_builder *b, const sb_outlines *outlines, bool *kept)
 {
-    bool *kept = sb_alloc(outlines->count, sizeof *kept);
-    int status = kept ? 0 : -1;
-    for (size_t k = 0; k < outlines->count && status == 0; k++) {
+    for (size_t k = 0; k < outlines->count; k++) {
         const sb_outline *o = &outlines->outline[k];
-        kept[k] = !hidden(b, o, body, o->normal) || (b->plate[body] && !hidden(b, o, body, sb_scale(o->normal, -1)));
+        kept[k] =
+            !hidden(b, o, b->body, o->normal) || (b->plate[b->body] && !hidden(b, o, b->body, sb_scale(o->normal, -1)));
     }
+}
+
+static bool same_edges(const sb_facets *facets, const sb_facet *one, const sb_facet *other)
+{
+    bool same = one->edges == other->edges;
+    for (uint32_t k = 0; k < one->edges && same; k++) {
+        const sb_facet_edge *a = &facets->edges[one->edge + k], *c = &facets->edges[other->edge + k];
+        same = a->bend == c->bend && sb_norm(sb_sub(a->wall, c->wall)) < STRAIGHT &&
+               sb_norm(sb_sub(a->from, c->from)) == 0 && sb_norm(sb_sub(a->to, c->to)) == 0;
+    }
+    return same;
+}
+
+/* Adds the facet of an outline at rest and away, as one if nothing differs. One that water meets at rest may be hidden
+   away, where a body has run into another one, and is not on the way there: it stays. */
+static int add_both(sb_facet_builder *b, size_t outline, size_t body, const bool *kept[2], const sb_vec3 shift[2])
+{
+    sb_facets *out = b->out;
+    for (int away = 0; away < 2; away++) {
+        b->shift = shift[away];
+        b->kept = kept[away];
+        if ((kept[0][outline] || kept[away][outline]) &&
+            add(b, outline, body, away ? SB_FACET_AWAY : SB_FACET_AT_REST) != 0)
+            return -1;
+    }
+    if (!kept[0][outline]) return 0;
+    sb_facet *rest = &out->facets[out->count - 2], *last = &out->facets[out->count - 1];
+    if (!same_edges(out, rest, last)) return 0;
+    rest->when = SB_FACET_ALWAYS;
+    out->edge_count = last->edge;
+    out->count--;
+    return 0;
+}
+
+/* Adds the facets of a body that water can meet, at rest or when a wave maker has moved it by `away`. */
+static int add_outlines(sb_facet_builder *b, const sb_outlines *outlines, size_t body, sb_vec3 away)
+{
+    const bool moves = sb_norm(away) > 0;
+    const sb_vec3 shift[2] = {{0, 0, 0}, away};
+    bool *kept[2] = {sb_alloc(outlines->count, sizeof(bool)), sb_alloc(outlines->count, sizeof(bool))};
+    int status = kept[0] && kept[1] ? 0 : -1;
+    b->body = body;
     b->outlines = outlines;
-    b->kept = kept;
+    for (int k = 0; k < 1 + moves && status == 0; k++) {
+        b->shift = shift[k];
+        find_kept(b, outlines, kept[k]);
+    }
+    b->shift = shift[0];
+    b->kept = kept[0];
     for (size_t k = 0; k < outlines->count && status == 0; k++)
-        if (kept[k]) status = add(b, k, body);
-    sb_free(kept);
+        if (moves)
+            status = add_both(b, k, body, (const bool *[2]){kept[0], kept[1]}, shift);
+        else if (kept[0][k])
+            status = add(b, k, body, SB_FACET_ALWAYS);
+    b->shift = (sb_vec3){0};
+    sb_free(kept[0]);
+    sb_free(kept[1]);
     return status;
+}
+
+/* Finds where a body is farthest from its place at rest, m from there. */
+static sb_status find_away(const sb_facet_builder *b, size_t body, sb_vec3 *away, sb_error *error)
+{
+    *away = (sb_vec3){0};
+    if (b->model->bodies[body].wavemaker < 0) return SB_OK;
+    const sb_wavemaker_use *use = &b->scene->wavemakers[b->model->bodies[body].wavemaker];
+    sb_paddle paddle;
+    const sb_status status = sb_paddle_create(&use->law, &paddle, error);
+    if (status != SB_OK) return status;
+    const sb_paddle_way way = sb_paddle_way_of(&paddle, b->scene->duration);
+    sb_paddle_destroy(&paddle);
+    const double farthest = way.most > -way.least ? way.most : way.least;
+    *away = sb_scale(use->direction, (1 - b->model->bodies[body].held) * farthest);
+    return SB_OK;
 }
 
 static int add_sides(sb_facet_builder *b, size_t body)
@@ -149,7 +223,7 @@ static int add_sides(sb_facet_builder *b, size_t body)
     for (int side = 0; side < SB_SIDES; side++) {
         if (!sb_facets_is_wall(b, side)) continue;
         if (sb_facets_is_cut(b, side)) {
-            if (add_outlines(b, &b->of_side[side], body) != 0) return -1;
+            if (add_outlines(b, &b->of_side[side], body, (sb_vec3){0}) != 0) return -1;
             continue;
         }
         if (sb_grow((void **)&b->out->facets, &b->capacity, b->out->count + 1, sizeof *b->out->facets) != 0) return -1;
@@ -167,11 +241,17 @@ sb_status sb_model_facets(const sb_scene *scene, const sb_model_space *space, sb
     int status = sb_facets_find_plates(&b);
     if (status == 0) status = sb_facets_find_outlines(&b);
     if (status == 0) status = sb_facets_cut_sides(&b);
-    for (size_t k = 0; k < model->body_count && status == 0; k++)
-        status = sb_facets_has_mesh(&b, k) ? add_outlines(&b, &b.of_body[k], k) : add_sides(&b, k);
+    sb_status found = SB_OK;
+    for (size_t k = 0; k < model->body_count && status == 0 && found == SB_OK; k++) {
+        sb_vec3 away;
+        found = find_away(&b, k, &away, error);
+        if (found == SB_OK)
+            status = sb_facets_has_mesh(&b, k) ? add_outlines(&b, &b.of_body[k], k, away) : add_sides(&b, k);
+    }
     for (size_t k = 0; k < model->body_count && b.of_body; k++) sb_outlines_free(&b.of_body[k]);
     for (int side = 0; side < SB_SIDES; side++) sb_outlines_free(&b.of_side[side]);
     sb_free(b.of_body);
     sb_free(b.plate);
+    if (found != SB_OK) return found;
     return status == 0 ? SB_OK : sb_fail_memory(error, "facets of walls");
 }

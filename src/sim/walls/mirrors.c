@@ -25,6 +25,7 @@ static int add(sb_sim *sim, const sb_facets *facets, const sb_facet *f, sb_vec3 
                                         .edges = f->edges,
                                         .moving = sim->walls.moving_of_body[f->body],
                                         .both = f->both,
+                                        .when = f->when,
                                         .shift = shift};
     for (uint32_t k = 0; k < f->edges; k++) {
         const sb_facet_edge *e = &facets->edges[f->edge + k];
@@ -142,13 +143,26 @@ sb_status sb_mirrors_create(sb_sim *sim, sb_error *error)
     m->moving = enough ? sb_alloc(m->count, sizeof *m->moving) : NULL;
     enough = m->moving != NULL;
     for (uint32_t k = 0; k < m->count && enough; k++)
-        if (m->mirror[k].moving == UINT32_MAX)
-            enough = enter(sim, k) == 0;
-        else
-            m->moving[m->moving_count++] = k;
+        if (m->mirror[k].moving == UINT32_MAX) enough = enter(sim, k) == 0;
     if (!enough) return sb_fail_memory(error, "facets of walls");
     if (m->entries > 0) qsort(m->entry, m->entries, sizeof *m->entry, compare);
+    sb_mirrors_list_moving(sim);
     return SB_OK;
+}
+
+/* In spacings: a body that has moved by more has left its place at rest. */
+static const double LEFT = 0.05;
+
+void sb_mirrors_list_moving(sb_sim *sim)
+{
+    sb_mirrors *m = &sim->walls.mirrors;
+    m->moving_count = 0;
+    for (uint32_t k = 0; k < m->count; k++) {
+        const sb_mirror *mirror = &m->mirror[k];
+        if (mirror->moving == UINT32_MAX) continue;
+        const bool away = fabs(sim->walls.moving[mirror->moving].displacement) > LEFT * sim->model->spacing;
+        if (mirror->when != (away ? SB_FACET_AT_REST : SB_FACET_AWAY)) m->moving[m->moving_count++] = k;
+    }
 }
 
 void sb_mirrors_destroy(sb_sim *sim)

@@ -19,6 +19,7 @@ typedef struct sb_mirror {
     uint32_t body, edge, edges;
     uint32_t moving; /* index into walls.moving, UINT32_MAX: static */
     bool both;
+    sb_facet_when when;
     sb_vec3 shift; /* m, from the original to this image beyond a periodic side */
 } sb_mirror;
 
@@ -77,6 +78,8 @@ typedef struct sb_near {
    then the caller frees it with sb_mirrors_destroy. */
 sb_status sb_mirrors_create(sb_sim *sim, sb_error *error);
 void sb_mirrors_destroy(sb_sim *sim);
+/* Lists those of moving bodies that water may meet where the bodies are now. */
+void sb_mirrors_list_moving(sb_sim *sim);
 size_t sb_mirrors_bytes(const sb_sim *sim);
 
 /* Distance of a place from a mirror that has not moved, and of a place from a segment; places and distances in quanta.

@@ -86,22 +86,21 @@ static void consider(const sb_sim *sim, const box *b, uint32_t index, sb_near *n
     add_edges(sim, b, moved, mirror, near, f);
 }
 
-/* How far plate a has moved ahead of plate b of the same paddle, along the normal of b's facet; 0 for other bodies. */
-static double ahead(const sb_sim *sim, const sb_mirror *a, const sb_mirror *b)
+/* How far a facet has moved along a normal. */
+static double moved_along(const sb_sim *sim, const sb_mirror *facet, sb_vec3 normal)
 {
-    if (a->body == b->body || a->moving == UINT32_MAX || b->moving == UINT32_MAX ||
-        sb_model_whole(sim->model, a->body) != sb_model_whole(sim->model, b->body))
-        return 0;
-    const sb_moving_body *one = &sim->walls.moving[a->moving], *other = &sim->walls.moving[b->moving];
-    return sb_dot(b->normal, one->direction) * (one->displacement - other->displacement) / sim->space.quantum;
+    if (facet->moving == UINT32_MAX) return 0;
+    const sb_moving_body *moving = &sim->walls.moving[facet->moving];
+    return sb_dot(normal, moving->direction) * moving->displacement / sim->space.quantum;
 }
 
-/* Whether some corner of facet a lies before the plane of facet b. */
+/* Whether some corner of facet a lies before the plane of facet b, where both are now. */
 static bool before(const sb_sim *sim, const sb_near_facet *a, const sb_near_facet *b)
 {
     const sb_mirrors *m = &sim->walls.mirrors;
     const sb_mirror *of = &m->mirror[a->mirror], *plane = &m->mirror[b->mirror];
-    const double eps = BEHIND * (double)sim->constant.spacing / sim->space.quantum - ahead(sim, of, plane);
+    const double eps = BEHIND * (double)sim->constant.spacing / sim->space.quantum -
+                       moved_along(sim, of, plane->normal) + moved_along(sim, plane, plane->normal);
     for (uint32_t k = of->edge; k < of->edge + of->edges; k++)
         if (sb_dot(plane->normal, m->edge[k].from) > plane->distance + eps) return true;
     return of->edges == 0;

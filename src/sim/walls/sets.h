@@ -66,7 +66,7 @@ typedef struct sb_mirrors {
     struct sb_mirror *mirror;
     struct sb_mirror_edge *edge;
     size_t moving_count;
-    uint32_t *moving; /* mirrors of moving bodies; they are in no block */
+    uint32_t *moving; /* mirrors of moving bodies that water may meet now; they are in no block */
     size_t entries, entries_capacity;
     struct sb_mirror_entry *entry; /* sorted by block */
 } sb_mirrors;

@@ -2,6 +2,7 @@
    rebuilt only while they move. */
 #include "sim/step/stages.h"
 #include "sim/walls/absorber.h"
+#include "sim/walls/mirrors.h"
 #include "sim/walls/walls.h"
 
 #include <math.h>
@@ -85,6 +86,7 @@ sb_status sb_walls_restore(sb_sim *sim, sb_error *error)
 {
     if (sim->walls.moving_count == 0) return SB_OK;
     place(sim);
+    sb_mirrors_list_moving(sim);
     if (sb_walls_table(&sim->walls.set[SB_MOVING], &sim->space) != 0 ||
         sb_walls_near_build(&sim->walls.set[SB_MOVING], &sim->space) != 0)
         return sb_fail_memory(error, "moving boundary particles");
