@@ -93,7 +93,8 @@ size_t sb_strip_bytes(const sb_sim *sim)
 {
     if (!sim->strip) return 0;
     const sb_offshore *grid = sb_sea_grid(sim->strip->sea);
-    size_t bytes = sizeof *sim->strip + sim->strip->held_capacity * sizeof *sim->strip->held;
+    size_t bytes = sizeof *sim->strip + sim->strip->held_capacity * sizeof *sim->strip->held +
+                   sim->strip->jump_capacity * sizeof *sim->strip->jumps;
     for (size_t k = 0; k < sim->strip->count; k++) {
         const sb_strip_side *s = &sim->strip->side[k];
         bytes += s->stations * (sizeof *s->station + SB_STATION_SUMS * sizeof *s->sums) +

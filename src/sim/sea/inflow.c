@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "sim/exchange/domains.h"
 #include "sim/sea/strip.h"
+#include "sim/search/departures.h"
 #include "sim/search/sort.h"
 #include "sim/step/ledger.h"
 #include "sim/terms/steady_stress.h"
@@ -31,7 +32,8 @@ static double height_of(const sb_sim *sim, sb_record at)
     return sim->space.origin.z + at[2] * sim->space.quantum;
 }
 
-/* Counts the particles that are beyond the side: the sort will remove them. */
+/* Counts the particles that will leave through the side when they are sorted. Beyond a corner one leaves through one
+   side only. */
 static void count_leaving(sb_sim *sim, sb_strip_side *s)
 {
     const size_t n = sim->state.n;
@@ -39,7 +41,7 @@ static void count_leaving(sb_sim *sim, sb_strip_side *s)
 #pragma omp parallel for schedule(static)
     for (size_t i = 0; i < n; i++) {
         const sb_record at = sim->state.position[i];
-        if (sb_strip_inwards(s, at) >= 0) continue;
+        if (sb_strip_inwards(s, at) >= 0 || sb_exit_of(sim, at).side != s->side) continue;
         const double along = sb_strip_along(sim, s, at), z = height_of(sim, at);
         const size_t column = sb_strip_column(sim, s, along);
         sb_given given;
@@ -92,7 +94,9 @@ static sb_status let_in(sb_sim *sim, const entry *e, sb_error *error)
     if (state->next_id == UINT32_MAX)
         return sb_fail(error, SB_FAILED, "step %llu: 2^32 particles have come in: no numbers are left",
                        (unsigned long long)state->step + 1);
-    if (sim->work.everywhere + 1 >= (uint64_t)1 << SB_INDEX_BITS) return sb_fail_memory(error, INCOMING);
+    if (sim->work.everywhere + 1 >= (uint64_t)1 << SB_INDEX_BITS)
+        return sb_fail(error, SB_FAILED, "step %llu: more water comes in from the sea than %d particles can hold",
+                       (unsigned long long)state->step + 1, 1 << SB_INDEX_BITS);
     const double *v = e->given->velocity, mass = (double)sim->constant.mass;
     const sb_record at = sb_space_record(&sim->space, e->at);
     const sb_f4 has = {(float)v[0], (float)v[1], (float)v[2], (float)e->given->pressure};
@@ -171,11 +175,13 @@ static double gap_at(const edge *e, sb_vec3 at, sb_vec3 spacing)
     return sqrt(least);
 }
 
-/* Sets the number of rows for the present depth; what is owed is divided among them. */
+/* Adds the particles that left through a column to what is owed to its rows, and sets their number for the present
+   depth; what is owed is divided among them. */
 static void set_rows(const sb_sim *sim, sb_strip_side *s, size_t column, double depth)
 {
     const double dr = sim->scene->resolution, has = s->row_count[column] * dr;
     double *owed = s->owed + column * s->rows, sum = 0;
+    for (int k = 0; k < s->row_count[column]; k++) owed[k] += (double)s->left[column * s->rows + (size_t)k];
     if (has > 0 && depth < STRETCHED * has && depth > 1 / STRETCHED * has) return;
     const int wanted = depth > 0.5 * dr ? (int)fmin(fmax(round(depth / dr), 1), (double)s->rows) : 0;
     if (wanted == s->row_count[column]) return;
@@ -281,10 +287,8 @@ static sb_status advance_column(sb_sim *sim, sb_strip_side *s, edge *near, size_
     c.length = particle_volume(sim) / (c.tall * width);
     c.spacing = s->axis == 0 ? sb_vec(c.length, pitch, c.tall) : sb_vec(pitch, c.length, c.tall);
     for (int row = 0; row < rows && status == SB_OK; row++) {
-        double *owed = &s->owed[column * s->rows + (size_t)row];
-        *owed += (double)s->left[column * s->rows + (size_t)row];
         status = fill_row(sim, &c, near, row, error);
-        *owed += comes_in(sim, &c, row);
+        s->owed[column * s->rows + (size_t)row] += comes_in(sim, &c, row);
     }
     return status;
 }

@@ -10,6 +10,9 @@ typedef struct sb_exit {
     bool lost;
 } sb_exit;
 
+/* sort_stage.c: where the sort will remove a particle of this record. */
+sb_exit sb_exit_of(const sb_sim *sim, sb_record at);
+
 /* Notes one particle of this domain that left, at the start of a step. The notes of a step are in the order of the ids,
    and only the first ones are kept. */
 void sb_departures_note(const sb_sim *sim, sb_exit way, size_t particle, sb_departures *here);

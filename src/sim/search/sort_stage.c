@@ -51,6 +51,12 @@ static sb_exit outside(const sb_sim *sim, const bounds *b, sb_record record)
     return result;
 }
 
+sb_exit sb_exit_of(const sb_sim *sim, sb_record at)
+{
+    const bounds b = domain_bounds(sim);
+    return outside(sim, &b, at);
+}
+
 /* Makes the sort words. Returns the number of particles that stay. */
 static size_t make_words(sb_sim *sim, const bounds *b)
 {
