@@ -9,7 +9,8 @@
 
 enum { SB_SUMS_MAX = 8 };
 
-/* Sums over the particles of one group, into terms. Returns a value whose maximum over all groups is wanted. */
+/* Sums over the particles of one group, into terms, which are 0 before. Returns a value whose maximum over all groups
+   is wanted. */
 typedef double sb_group_terms(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX]);
 
 /* total[k]: sum over all groups of all domains of terms[k], k < count <= SB_SUMS_MAX; NaN where a term is no finite

@@ -5,44 +5,60 @@
 #include "sim/simulation.h"
 
 #include <math.h>
-#include <string.h>
 
-/* Inner products of one sweep. */
-typedef struct sums {
-    double free, chopped; /* |phi|^2_D, |beta|^2_D: gradient on q > 0, and inward gradient on q = 0 */
-    double slope;         /* e . direction */
-    double curvature;     /* - direction . A direction */
-    double feasible;      /* longest step that keeps q >= 0 */
-} sums;
+/* Inner products along a direction. */
+typedef struct along {
+    double slope;     /* e . direction */
+    double curvature; /* - direction . A direction */
+    double feasible;  /* longest step that keeps q >= 0 */
+} along;
 
-enum { SUMS = 4 };
-
-/* Sums the first members of `sums`. Returns less the group's `feasible`. */
-static double sum_group(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
+/* |phi|^2_D, |beta|^2_D: the gradient on the free set, where q > 0, and the inward one on the chopped set, q = 0. */
+static double set_terms(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
 {
-    double free = 0, chopped = 0, slope = 0, curvature = 0, feasible = (double)INFINITY;
+    double free = 0, chopped = 0;
     for (size_t i = group->first; i < group->end; i++) {
         if (sim->work.diagonal[i] == 0) continue;
-        double e = (double)sim->work.residual[i], d = (double)sim->work.direction[i];
-        double q = (double)sim->work.unknown[i];
-        if (q > 0)
+        const double e = (double)sim->work.residual[i];
+        if (sim->work.unknown[i] > 0)
             free += e * e / (double)sim->work.diagonal[i];
         else if (e > 0)
             chopped += e * e / (double)sim->work.diagonal[i];
-        slope += e * d;
+    }
+    terms[0] = free;
+    terms[1] = chopped;
+    return 0;
+}
+
+/* Whether the gradient on the chopped set is the larger one. */
+static bool is_chopped(sb_sim *sim)
+{
+    double sum[2];
+    sb_sum_groups(sim, 2, set_terms, sum);
+    return sum[1] > sum[0];
+}
+
+/* The slope and the curvature. Returns less the group's `feasible`. */
+static double direction_terms(sb_sim *sim, const sb_group *group, double terms[SB_SUMS_MAX])
+{
+    double slope = 0, curvature = 0, feasible = (double)INFINITY;
+    for (size_t i = group->first; i < group->end; i++) {
+        if (sim->work.diagonal[i] == 0) continue;
+        const double d = (double)sim->work.direction[i], q = (double)sim->work.unknown[i];
+        slope += (double)sim->work.residual[i] * d;
         curvature -= d * (double)sim->work.product[i];
         if (d < 0 && q < -feasible * d) feasible = -q / d;
     }
-    const double values[SUMS] = {free, chopped, slope, curvature};
-    memcpy(terms, values, sizeof values);
+    terms[0] = slope;
+    terms[1] = curvature;
     return -feasible;
 }
 
-static sums sum_all(sb_sim *sim)
+static along sum_along(sb_sim *sim)
 {
-    double sum[SUMS];
-    const double feasible = -sb_sum_groups(sim, SUMS, sum_group, sum);
-    return (sums){.free = sum[0], .chopped = sum[1], .slope = sum[2], .curvature = sum[3], .feasible = feasible};
+    double sum[2];
+    const double feasible = -sb_sum_groups(sim, 2, direction_terms, sum);
+    return (along){.slope = sum[0], .curvature = sum[1], .feasible = feasible};
 }
 
 /* direction = D^-1 (gradient on the free set, or on the chopped set) + gamma direction. */
@@ -107,12 +123,11 @@ static sb_status solve(sb_sim *sim, sb_error *error)
     sb_pressure_error judged = sb_pressure_judge(sim);
     aim(sim, false, 0);
     while (!sb_pressure_done(sim, &judged)) {
-        sums s = sum_all(sim);
-        bool chopped = s.chopped > s.free;
+        const bool chopped = is_chopped(sim);
         if (chopped) aim(sim, true, 0);
         sb_pressure_load_begin(sim, sim->work.direction);
         sb_pressure_product(sim, sim->work.product);
-        s = sum_all(sim);
+        const along s = sum_along(sim);
         if (!(s.curvature > 0)) { /* no further descent */
             sim->work.solve.capped = !sb_pressure_met(sim, &judged);
             break;
