@@ -21,10 +21,16 @@ typedef struct stage {
     sb_phase phase; /* the first of its phases */
     sb_status (*run)(sb_sim *sim, sb_error *error);
     size_t needed; /* flag of sb_needs, or SB_ALWAYS */
-    int halves;    /* of an explicit step that have it; an implicit step has no halves */
+    int halves;    /* of an explicit step that have it; an implicit step has no halves and runs them all */
 } stage;
 
-enum { FIRST = 1, SECOND = 2, BOTH = FIRST | SECOND, IMPLICIT = BOTH /* explicit steps do not have it */ };
+enum {
+    FIRST = 1,
+    SECOND = 2,
+    BOTH = FIRST | SECOND,
+    IMPLICIT = 4 /* no half of an explicit step has it */,
+    ALL = BOTH | IMPLICIT
+};
 
 static const stage stages[] = {
     /* dt from the present speeds */
@@ -111,7 +117,7 @@ static sb_status check_finite(const sb_sim *sim, const char *stage_name, sb_erro
 }
 #endif
 
-/* Runs the stages that have one of these halves. */
+/* Runs the stages that have one of these. */
 static sb_status run_stages(sb_sim *sim, int halves, sb_error *error)
 {
     sb_status status = SB_OK;
@@ -143,7 +149,7 @@ sb_status sb_sim_step(sb_sim *sim, sb_error *error)
 {
     sim->work.lists_current = sim->work.virial_known = false;
     sb_pushes_clear(sim->pushes);
-    sb_status status = run_stages(sim, sim->needs.wcsph ? FIRST : BOTH, error);
+    sb_status status = run_stages(sim, sim->needs.wcsph ? FIRST : ALL, error);
     if (sim->needs.wcsph && status == SB_OK) status = run_stages(sim, SECOND, error);
     sim->work.lists_current = status == SB_OK;
     sb_report_update(sim);
