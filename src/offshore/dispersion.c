@@ -24,6 +24,9 @@
 /* Relative residual at which a solve ends. */
 static const double TOLERANCE = 1e-3;
 
+/* In last steps: the farthest that the pressure is extrapolated in time. */
+static const double FARTHEST = 2;
+
 size_t sb_offshore_dispersion_bytes(size_t cells)
 {
     return 11 * cells * sizeof(double);
@@ -185,8 +188,9 @@ sb_status sb_offshore_find_dispersion(sb_offshore *offshore, const sb_offshore_l
     sb_offshore_mark_active(offshore, level, stage == 0);
     on_rows(offshore, level, FACES, 0);
     close_sides(offshore);
-    /* The second stage of the last step was at the time of this one's first stage. */
-    const double ahead = stage == 1 && d->last_dt > 0 ? dt / d->last_dt : 0;
+    /* The second stage of the last step was at the time of this one's first stage. A last step much shorter than this
+       one, as that to the end of a run is, says little of the change ahead: it is the difference of two solves. */
+    const double ahead = stage == 1 && d->last_dt > 0 ? fmin(dt / d->last_dt, FARTHEST) : 0;
     on_rows(offshore, level, ASSEMBLE, ahead);
     sb_offshore_jump_system(offshore, level, ahead);
     if (offshore->options.paddle) sb_offshore_paddle_system(offshore, level, d->system.scale, d->system.residual);

@@ -17,8 +17,8 @@ static size_t clamped(ptrdiff_t i, size_t count)
 static velocity velocity_at(const sb_offshore *o, ptrdiff_t i, ptrdiff_t j)
 {
     const size_t at = o->origin + clamped(j, o->options.rows) * o->stride + clamped(i, o->options.columns);
-    const double h = o->now.h[at], dry = o->options.dry_depth, scale = 2 * h / (h * h + fmax(h * h, dry * dry));
-    return (velocity){scale * o->now.hu[at], scale * o->now.hv[at]};
+    const double h = o->now.h[at], dry = o->options.dry_depth;
+    return (velocity){sb_offshore_velocity(o->now.hu[at], h, dry), sb_offshore_velocity(o->now.hv[at], h, dry)};
 }
 
 /* Adds the divergence of a cell's velocity, with this weight, and what depends on dispersion. */

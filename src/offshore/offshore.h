@@ -111,7 +111,7 @@ void sb_offshore_set_jumps(sb_offshore *offshore, const sb_offshore_jump *jumps,
 typedef struct sb_offshore_balance {
     double first, now;                 /* at the start, now */
     double entered[SB_OFFSHORE_SIDES]; /* through each side since the start; negative: left */
-    double added;                      /* by sb_offshore_add */
+    double added;                      /* by jumps, and by sb_offshore_add */
     double repaired;                   /* by setting negative depths to 0 */
     double kinetic, potential;         /* now, over density; potential energy from z = 0 */
     double momentum_x, momentum_y;     /* now, over density, m^4/s (m^3/s) */

@@ -45,8 +45,8 @@ static sb_offshore_water mix(const sb_offshore *offshore, const sb_offshore_leve
     }
     *wet = weight > 0 && sum.surface / weight > ground;
     if (!*wet) return (sb_offshore_water){.surface = weight > 0 ? sum.surface / weight : lowest};
-    const double square = h * h + fmax(h * h, dry * dry);
-    return (sb_offshore_water){.surface = sum.surface / weight, .u = 2 * h * hu / square, .v = 2 * h * hv / square};
+    return (sb_offshore_water){
+        .surface = sum.surface / weight, .u = sb_offshore_velocity(hu, h, dry), .v = sb_offshore_velocity(hv, h, dry)};
 }
 
 static double bed_of(const sb_offshore *offshore, const sb_offshore_corners *c)

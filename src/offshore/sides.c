@@ -33,32 +33,26 @@ static void radiate(const sb_offshore *offshore, double h, double normal, double
     *beyond_normal = 0.5 * (normal + given_normal) + (c - given_c);
 }
 
-static double desingularised(const sb_offshore *offshore, double q, double h)
-{
-    const double dry = offshore->options.dry_depth;
-    return h > 0 ? 2 * h * q / (h * h + fmax(h * h, dry * dry)) : 0;
-}
-
 /* Fills the two cells beyond a side that waves pass. */
-static void fill_passing(const sb_offshore *offshore, double *h, double *across, double *along, const edge *e,
-                         bool given, double time)
+static void fill_passing(const sb_offshore *offshore, double *h, double *across, double *along, const edge *e, int side,
+                         double time)
 {
     const sb_offshore_options *o = &offshore->options;
     const size_t at = e->within[0];
-    const double bed = offshore->bed[at];
+    const double bed = offshore->bed[at], dry = o->dry_depth;
     sb_offshore_water water = {.surface = o->level};
     double given_normal = 0, given_along = 0;
+    const bool given = o->side[side] == SB_OFFSHORE_GIVEN;
     if (given) {
         water = o->given(o->given_context, time, e->x, e->y);
-        const bool along_x =
-            e->within[0] > e->within[1] ? e->within[0] - e->within[1] == 1 : e->within[1] - e->within[0] == 1;
-        given_normal = e->outward * (along_x ? water.u : water.v);
-        given_along = along_x ? water.v : water.u;
+        const bool across_x = side < SB_OFFSHORE_Y_MIN;
+        given_normal = e->outward * (across_x ? water.u : water.v);
+        given_along = across_x ? water.v : water.u;
     }
     double beyond_h, normal;
-    radiate(offshore, h[at], e->outward * desingularised(offshore, across[at], h[at]), fmax(0, water.surface - bed),
+    radiate(offshore, h[at], e->outward * sb_offshore_velocity(across[at], h[at], dry), fmax(0, water.surface - bed),
             given_normal, &beyond_h, &normal);
-    const double drift = normal > 0 || !given ? desingularised(offshore, along[at], h[at]) : given_along;
+    const double drift = normal > 0 || !given ? sb_offshore_velocity(along[at], h[at], dry) : given_along;
     for (int k = 0; k < SB_OFFSHORE_BEYOND; k++) {
         h[e->beyond[k]] = beyond_h;
         across[e->beyond[k]] = e->outward * normal * beyond_h;
@@ -71,6 +65,7 @@ static void fill_passing(const sb_offshore *offshore, double *h, double *across,
 static void fill_pushing(const sb_offshore *offshore, double *h, double *across, double *along, const edge *e)
 {
     const sb_offshore_push *push = &offshore->push;
+    const double dry = offshore->options.dry_depth;
     const double slope = sb_offshore_push_slope(push, h[e->within[0]]);
     for (int k = 0; k < SB_OFFSHORE_BEYOND; k++) {
         const size_t from = e->within[k], to = e->beyond[k];
@@ -78,8 +73,8 @@ static void fill_pushing(const sb_offshore *offshore, double *h, double *across,
         across[to] = -across[from];
         along[to] = along[from];
         if (push->velocity == 0 && push->rate == 0) continue;
-        across[to] = -h[to] * (2 * e->outward * push->velocity + desingularised(offshore, across[from], h[from]));
-        along[to] = h[to] * desingularised(offshore, along[from], h[from]);
+        across[to] = -h[to] * (2 * e->outward * push->velocity + sb_offshore_velocity(across[from], h[from], dry));
+        along[to] = h[to] * sb_offshore_velocity(along[from], h[from], dry);
     }
 }
 
@@ -88,7 +83,7 @@ static void fill(const sb_offshore *offshore, double *h, double *across, double 
 {
     const sb_offshore_side kind = offshore->options.side[side];
     if (kind == SB_OFFSHORE_OPEN || kind == SB_OFFSHORE_GIVEN) {
-        fill_passing(offshore, h, across, along, e, kind == SB_OFFSHORE_GIVEN, time);
+        fill_passing(offshore, h, across, along, e, side, time);
         return;
     }
     if (kind == SB_OFFSHORE_PADDLE) {

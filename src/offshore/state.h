@@ -4,6 +4,8 @@
 
 #include "offshore/offshore.h"
 
+#include <math.h>
+
 /* Layers of cells beyond each side: a face needs the slopes of both cells, and a slope needs both neighbours. */
 enum { SB_OFFSHORE_BEYOND = 2 };
 
@@ -14,6 +16,13 @@ enum { SB_OFFSHORE_BEYOND = 2 };
 typedef struct sb_offshore_level {
     double *h, *hu, *hv;
 } sb_offshore_level;
+
+/* Velocity of water of depth h with the momentum q: q / h in water deeper than dry, m, and 0 with the depth
+   (primitives.c). */
+static inline double sb_offshore_velocity(double q, double h, double dry)
+{
+    return h > 0 ? 2 * h * q / (h * h + fmax(h * h, dry * dry)) : 0;
+}
 
 /* What a paddle does at its side. */
 typedef struct sb_offshore_push {

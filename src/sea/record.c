@@ -37,7 +37,7 @@ static sb_status read_row(const sb_rows *rows, double *x, double *y, double *tim
     if (status == SB_OK) status = sb_rows_number(rows, SB_RECORD_X, "x_m", x, error);
     if (status == SB_OK) status = sb_rows_number(rows, SB_RECORD_Y, "y_m", y, error);
     if (status == SB_OK) status = sb_rows_number(rows, SB_RECORD_BED, "bed_m", &values[BED], error);
-    values[SURFACE] = values[BED];
+    if (status == SB_OK) values[SURFACE] = values[BED];
     if (status == SB_OK && *rows->cells[SB_RECORD_SURFACE])
         status = sb_rows_number(rows, SB_RECORD_SURFACE, "surface_m", &values[SURFACE], error);
     for (size_t c = 0; status == SB_OK && c < 3 * SB_RECORD_LAYERS; c++) {
