@@ -52,8 +52,7 @@ enum {
     SB_WM_PERIOD = 32,
     SB_WM_DISTANCE = 64,
     SB_WM_FOCUS = 128,
-    SB_WM_REQUIRED = 255, /* the bits above: keys that are numbers > 0, or a file */
-    SB_WM_TRAIN = 256,    /* motion, ramp, lasts */
+    SB_WM_TRAIN = 256, /* motion, ramp, lasts */
     SB_WM_THEORY = 512,
     SB_WM_SPECTRUM = 1024, /* spectrum, gamma, components */
     SB_WM_SEED = 2048

@@ -81,16 +81,22 @@ double sb_initial_crest(const sb_initial_wave *wave)
     return sum;
 }
 
-/* Refuses a wave that does not fit a whole number of times into a periodic domain. */
+sb_status sb_initial_wave_fits(sb_reader *reader, const sb_yaml *map, const char *key, double length, const char *place,
+                               double extent)
+{
+    const double waves = fmax(round(extent / length), 1);
+    if (fabs(extent - waves * length) <= WHOLE * extent) return SB_OK;
+    return sb_reader_fail(reader, map, key,
+                          "a wavelength of %.10g m does not fit the periodic %s of %g m a whole number of times, "
+                          "expected for example %.10g m",
+                          length, place, extent, extent / waves);
+}
+
 static sb_status check_fit(sb_reader *reader, const sb_yaml *map, const char *key, double length)
 {
     const sb_domain *domain = &reader->scene->domain;
-    const double extent = domain->max.x - domain->min.x, waves = fmax(round(extent / length), 1);
-    if (!sb_scene_repeats(reader->scene, 0) || fabs(extent - waves * length) <= WHOLE * extent) return SB_OK;
-    return sb_reader_fail(reader, map, key,
-                          "a wavelength of %.10g m does not fit the periodic domain of %g m a whole number of times, "
-                          "expected for example %.10g m",
-                          length, extent, extent / waves);
+    if (!sb_scene_repeats(reader->scene, 0)) return SB_OK;
+    return sb_initial_wave_fits(reader, map, key, length, "domain", domain->max.x - domain->min.x);
 }
 
 static sb_status check_length(sb_reader *reader, const sb_yaml *map, const char *key, double length)
@@ -136,7 +142,7 @@ sb_status sb_initial_wave_finish(sb_reader *reader, const sb_yaml *map, sb_initi
             return sb_reader_fail(reader, map, NULL, "%s", why.text);
         return check_length(reader, map, "wavelength", wave->wavelength);
     }
-    /* the grid of offshore is not periodic */
+    /* for the wave of offshore, see table_offshore.c */
     if (wave->kind == SB_INITIAL_STANDING && wave == &reader->scene->wave)
         return check_fit(reader, map, "wavelength", wave->wavelength);
     if (wave->kind != SB_INITIAL_COMPONENTS) return SB_OK;

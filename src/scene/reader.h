@@ -43,6 +43,9 @@ sb_status sb_piston_check(sb_reader *reader, const sb_yaml *map, const sb_wavema
 
 /* initial_wave.c: prepares the wave, and refuses one that cannot be or does not fit a periodic domain. */
 sb_status sb_initial_wave_finish(sb_reader *reader, const sb_yaml *map, sb_initial_wave *wave);
+/* Refuses a wavelength that does not fit a whole number of times into a periodic extent of the place ("domain"), m. */
+sb_status sb_initial_wave_fits(sb_reader *reader, const sb_yaml *map, const char *key, double length, const char *place,
+                               double extent);
 
 /* Applies --set KEY=VALUE to the tree. */
 sb_status sb_override_apply(sb_yaml *root, const sb_override *override, sb_error *error);

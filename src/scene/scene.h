@@ -120,13 +120,13 @@ static inline bool sb_scene_grid_alone(const sb_scene *scene)
     return scene->offshore.present && scene->given.source != SB_GIVEN_OFFSHORE;
 }
 
-/* Whether the domain is periodic along an axis (0, 1, 2). In 2D it is never periodic along y. */
 /* Whether all water is a sea at one level at the start. */
 static inline bool sb_scene_starts_still(const sb_scene *scene)
 {
     return scene->wave.kind == SB_INITIAL_NONE && scene->box_count == 0;
 }
 
+/* Whether the domain is periodic along an axis (0, 1, 2). In 2D it is never periodic along y. */
 static inline bool sb_scene_repeats(const sb_scene *scene, int axis)
 {
     return scene->domain.side[2 * axis] == SB_SIDE_PERIODIC && !(scene->dimensions == 2 && axis == 1);

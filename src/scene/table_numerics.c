@@ -84,8 +84,8 @@ static const sb_key keys[] = {
     NUMBER(artificial_viscosity, NULL, 0, 10, 0,
            "Coefficient alpha of Monaghan's artificial viscosity; 0 leaves the term out."),
     NUMBER(hyperviscosity, NULL, 0, 1, 0,
-           "Coefficient kappa of the hyperviscosity, which damps motion of the scale of the spacing; 0, and water "
-           "without gravity, leave the term out."),
+           "Coefficient kappa of the hyperviscosity, which damps motion of the scale of the spacing; 0 leaves the term "
+           "out."),
     NUMBER(wall_friction, NULL, 0, 10, 0,
            "Coefficient sigma of the artificial wall friction; 0 leaves the term out."),
     CHOICE(walls, wall_names,

@@ -176,6 +176,25 @@ static sb_status finish_paddle(sb_reader *reader, const sb_yaml *map, sb_offshor
     return SB_OK;
 }
 
+/* Whether a side of the grid continues at the opposite one, by its own kind or by that of the domain. */
+static bool is_periodic(const sb_scene *scene, const sb_offshore_settings *o, int side)
+{
+    const bool domain = o->side[side] == SB_GRID_SIDE_DOMAIN && scene->domain.side[side] == SB_SIDE_PERIODIC;
+    return domain || o->side[side] == SB_GRID_SIDE_PERIODIC;
+}
+
+/* Refuses a periodic side without its opposite one, and a standing wave that does not fit periodic sides. */
+static sb_status finish_periodic(sb_reader *reader, const sb_yaml *map, const sb_offshore_settings *o)
+{
+    const int last = reader->scene->dimensions == 2 ? SB_X_MAX : SB_Y_MAX;
+    for (int side = SB_X_MIN; side <= last; side++)
+        if (is_periodic(reader->scene, o, side) && !is_periodic(reader->scene, o, side ^ 1))
+            return sb_reader_fail(reader, map, "sides", "%s is periodic, expected %s: periodic, too",
+                                  sb_side_names[side], sb_side_names[side ^ 1]);
+    if (o->wave.kind != SB_INITIAL_STANDING || !is_periodic(reader->scene, o, SB_X_MIN)) return SB_OK;
+    return sb_initial_wave_fits(reader, map, "wave", o->wave.wavelength, "grid", o->x_max - o->x_min);
+}
+
 static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_offshore_settings *o = item;
@@ -200,6 +219,7 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     sb_status status = check_extent(reader, map, 'x', o->x_max - o->x_min, o->cell);
     if (status == SB_OK && reader->scene->dimensions == 3)
         status = check_extent(reader, map, 'y', o->y_max - o->y_min, o->cell);
+    if (status == SB_OK) status = finish_periodic(reader, map, o);
     return status == SB_OK ? finish_paddle(reader, map, o) : status;
 }
 
