@@ -149,27 +149,17 @@ static sb_status find_largest(sb_cloud *cloud, double link, bool by_weight, uint
     return SB_OK;
 }
 
-static sb_status keep_group(sb_cloud *cloud, double link, bool by_weight, sb_error *error)
+sb_status sb_cloud_keep_heaviest(sb_cloud *cloud, double link, sb_error *error)
 {
     uint32_t largest;
     if (cloud->count < 2) return SB_OK;
-    sb_status status = find_largest(cloud, link, by_weight, &largest, error);
+    sb_status status = find_largest(cloud, link, true, &largest, error);
     if (status != SB_OK) return status;
     size_t kept = 0;
     for (size_t i = 0; i < cloud->count; i++)
         if (sb_sets_root(cloud->parents, (uint32_t)i) == largest) cloud->samples[kept++] = cloud->samples[i];
     cloud->count = kept;
     return SB_OK;
-}
-
-sb_status sb_cloud_keep_largest(sb_cloud *cloud, double link, sb_error *error)
-{
-    return keep_group(cloud, link, false, error);
-}
-
-sb_status sb_cloud_keep_heaviest(sb_cloud *cloud, double link, sb_error *error)
-{
-    return keep_group(cloud, link, true, error);
 }
 
 sb_status sb_cloud_unmark(sb_cloud *cloud, sb_error *error)

@@ -36,11 +36,8 @@ sb_status sb_cloud_query(sb_cloud *cloud, const sb_sim *sim, sb_vec3 min, sb_vec
 /* The same, but appends to the samples that are already there. */
 sb_status sb_cloud_add(sb_cloud *cloud, const sb_sim *sim, sb_vec3 min, sb_vec3 max, double lag, sb_error *error);
 
-/* Keeps the largest group of particles that are connected by distances < link (m); this removes spray. The order of the
-   samples is kept. */
-sb_status sb_cloud_keep_largest(sb_cloud *cloud, double link, sb_error *error);
-
-/* The same for the group with the largest sum of .density, in which the caller may have stored weights. */
+/* Keeps the group of particles, connected by distances < link (m), with the largest sum of .density, in which the
+   caller may have stored weights; this removes spray. The order of the samples is kept. */
 sb_status sb_cloud_keep_heaviest(sb_cloud *cloud, double link, sb_error *error);
 
 /* Clears all marks. Marks belong to the samples only as long as the samples keep their order. */

@@ -515,7 +515,7 @@ size_t sb_measure_bytes(const sb_measure *measure)
         bytes += sizeof(sb_patch *) + sizeof *measure->probes + sb_patch_bytes(measure->patches[i]);
     for (size_t i = 0; i < measure->scene->measure.runup_count; i++)
         bytes += sizeof *measure->shores + measure->shores[i].capacity * sizeof *measure->shores[i].points;
-    bytes += measure->split_count * sizeof *measure->split_rows;
+    bytes += sb_reflections_bytes(measure);
     bytes += measure->loads ? sb_loads_bytes(measure->loads) : 0;
     return bytes + (measure->map ? sb_map_bytes(measure->map) : 0);
 }

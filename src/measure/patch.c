@@ -59,7 +59,7 @@ void sb_patch_destroy(sb_patch *patch)
 
 size_t sb_patch_bytes(const sb_patch *patch)
 {
-    return sizeof *patch + patch->capacity * sizeof *patch->walls;
+    return sizeof *patch + patch->capacity * sizeof *patch->walls + sb_patch_region_bytes(&patch->region);
 }
 
 bool sb_patch_on_wall(const sb_patch *patch)

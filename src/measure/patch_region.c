@@ -140,6 +140,12 @@ sb_status sb_patch_region_make(sb_patch_region *region, sb_vec3 center, sb_vec3 
     return SB_OK;
 }
 
+size_t sb_patch_region_bytes(const sb_patch_region *region)
+{
+    const size_t points = region->share ? width_of(region) * (size_t)(2 * region->rows + 1) : 0;
+    return points * (sizeof *region->share + sizeof *region->norm);
+}
+
 void sb_patch_region_free(sb_patch_region *region)
 {
     sb_free(region->share);

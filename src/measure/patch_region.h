@@ -28,6 +28,7 @@ typedef bool sb_on_face(const void *context, sb_vec3 at);
 
 sb_status sb_patch_region_make(sb_patch_region *region, sb_vec3 center, sb_vec3 normal, double radius, bool flat,
                                sb_on_face *on_face, const void *context, sb_error *error);
+size_t sb_patch_region_bytes(const sb_patch_region *region);
 void sb_patch_region_free(sb_patch_region *region);
 
 /* Returns the weight W of a point in the plane, 1/m^2 (1/m in 2D). A point beside the face has that of the nearest

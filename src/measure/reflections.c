@@ -39,6 +39,14 @@ void sb_reflections_destroy(sb_measure *measure)
     sb_free(measure->split_rows);
 }
 
+size_t sb_reflections_bytes(const sb_measure *measure)
+{
+    size_t bytes = measure->split_count * sizeof *measure->split_rows;
+    for (size_t i = 0; i < measure->scene->measure.reflection_count; i++)
+        bytes += sizeof *measure->splits + 2 * sums_of(&measure->scene->measure.reflections[i]) * sizeof(double);
+    return bytes;
+}
+
 /* Memory for the solution of one window. */
 typedef struct scratch {
     double *sums, *places, *cosines, *sines; /* the last two: gauges times harmonics */

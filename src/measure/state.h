@@ -95,6 +95,7 @@ sb_status sb_records_read(const sb_measure *measure, const sb_measure_view *view
 /* reflections.c: the states of all sets. */
 sb_status sb_reflections_create(sb_measure *measure, sb_error *error);
 void sb_reflections_destroy(sb_measure *measure);
+size_t sb_reflections_bytes(const sb_measure *measure);
 /* Adds the row of all gauges at `time` to a set. *rows: those of the window that ended, one per harmonic; or NULL. */
 sb_status sb_reflections_add(sb_measure *measure, size_t set, const sb_gauge_record *gauges, double time,
                              const sb_reflection_record **rows, sb_error *error);
