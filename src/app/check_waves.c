@@ -111,12 +111,9 @@ static void print_train(void *context, const sb_scene *scene, const sb_wavemaker
     print_parts(scene, maker, height_over_stroke(scene, maker, paddle));
 }
 
-/* Viscosity at the end of a viscous sponge, m^2/s; 0 of a damping one. */
 static double viscosity_of(const sb_scene *scene, const sb_model *model, const sb_sponge *sponge)
 {
-    if (sponge->kind != SB_SPONGE_VISCOUS) return 0;
-    return sb_sponge_viscosity(sponge->alpha, scene->numerics.support * scene->resolution,
-                               sb_sim_sound_speed(scene, model), scene->dimensions);
+    return sb_zone_viscosity(scene, sponge, sb_sim_sound_speed(scene, model));
 }
 
 /* Reflected over incident amplitude by linear theory. */

@@ -69,14 +69,19 @@ static double period_of(const sb_wavemaker_use *maker)
     return period;
 }
 
+double sb_zone_viscosity(const sb_scene *scene, const sb_sponge *sponge, double sound)
+{
+    if (sponge->kind != SB_SPONGE_VISCOUS) return 0;
+    return sb_sponge_viscosity(sponge->alpha, scene->numerics.support * scene->resolution, sound, scene->dimensions);
+}
+
 double sb_zone_reflection(const sb_scene *scene, const sb_sponge *sponge, double period, double sound)
 {
     const double omega = 2 * M_PI / period, gravity = scene->fluid.gravity;
     if (sponge->kind == SB_SPONGE_DAMPING)
         return sb_sponge_reflection(sponge->profile, sponge->strength, omega, sponge->depth, gravity, sponge->length);
-    const double viscosity =
-        sb_sponge_viscosity(sponge->alpha, scene->numerics.support * scene->resolution, sound, scene->dimensions);
-    return sb_sponge_viscous_reflection(sponge->profile, viscosity, omega, sponge->depth, gravity, sponge->length);
+    return sb_sponge_viscous_reflection(sponge->profile, sb_zone_viscosity(scene, sponge, sound), omega, sponge->depth,
+                                        gravity, sponge->length);
 }
 
 /* Speed of sound of a sea as deep as the sponge, m/s. */

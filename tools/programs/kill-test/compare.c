@@ -46,6 +46,8 @@ static bool same_frames(const sb_frame *a, const sb_frame *b)
     const size_t n = a->count, bodies = a->body_count;
     return a->count == b->count && a->body_count == b->body_count && a->index == b->index &&
            a->status.step == b->status.step && a->status.time == b->status.time &&
+           memcmp(&a->origin, &b->origin, sizeof a->origin) == 0 && !a->density_error == !b->density_error &&
+           (!a->density_error || memcmp(a->density_error, b->density_error, n * sizeof(float)) == 0) &&
            memcmp(a->position, b->position, 3 * n * sizeof(float)) == 0 &&
            memcmp(a->velocity, b->velocity, 3 * n * sizeof(float)) == 0 &&
            memcmp(a->pressure, b->pressure, n * sizeof(float)) == 0 && memcmp(a->id, b->id, n * sizeof *a->id) == 0 &&

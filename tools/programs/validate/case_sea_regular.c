@@ -31,9 +31,8 @@ static double complex component(const sb_case_run *run, const sb_gauge *gauge)
 
 /* Least squares over the gauges: component = in exp(-ikx) + out exp(ikx). Returns the sum of the squares that remain.
  */
-static double fit(const sb_case_run *run, const double complex *eta, double k, waves *w)
+static double fit(const sb_case_run *run, const double complex *eta, size_t n, double k, waves *w)
 {
-    const size_t n = run->scene->measure.gauge_count;
     const sb_gauge *gauges = run->scene->measure.gauges;
     double complex cross = 0, in = 0, out = 0;
     double left = 0;
@@ -63,11 +62,11 @@ static waves split(const sb_case_run *run, double *over)
     double complex eta[GAUGES] = {0};
     waves best = {0};
     double least = HUGE_VAL;
-    for (size_t g = 0; g < run->scene->measure.gauge_count && g < GAUGES; g++)
-        eta[g] = component(run, &run->scene->measure.gauges[g]);
+    const size_t count = run->scene->measure.gauge_count < GAUGES ? run->scene->measure.gauge_count : GAUGES;
+    for (size_t g = 0; g < count; g++) eta[g] = component(run, &run->scene->measure.gauges[g]);
     for (int n = 0; n < TRIALS; n++) {
         waves w;
-        const double share = 0.97 + 0.06 * n / (TRIALS - 1), left = fit(run, eta, share * k, &w);
+        const double share = 0.97 + 0.06 * n / (TRIALS - 1), left = fit(run, eta, count, share * k, &w);
         if (!(left < least)) continue;
         least = left;
         best = w;

@@ -2,6 +2,7 @@
 
 #include "physics/dispersion.h"
 #include "physics/steady_wave.h"
+#include "theory.h"
 
 #include <math.h>
 #include <string.h>
@@ -160,9 +161,10 @@ double sb_wave_fit_turn(double angle, double from)
 double sb_wave_fit_met(double kd, double own, double other, double depth)
 {
     /* Parts of the frequency at a given number, over (k a)^2. */
-    const double t = tanh(kd), w = sqrt(t), group = 0.5 * (1 + 2 * kd / sinh(2 * kd));
+    const double t = tanh(kd), group = 0.5 * (1 + 2 * kd / sinh(2 * kd));
     const double stokes = (9 * pow(t, 4) - 10 * t * t + 9) / (16 * pow(t, 4)) - 1 / (2 * kd * t);
-    const double standing = (9 * pow(w, -7) - 12 * pow(w, -3) - 3 * w - 2 * pow(w, 5)) / (16 * w);
+    /* two waves of amplitude a are a standing one of 2 a */
+    const double standing = 4 * (sb_theory_standing_shift(kd, 1) - 1);
     const double k = kd / depth, change = pow(k * own, 2) * stokes + pow(k * other, 2) * (standing - stokes);
     return 1 - change / group;
 }
