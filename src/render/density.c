@@ -248,7 +248,7 @@ sb_status sb_density_build(sb_density *density, const sb_frame *frame, const sb_
     sb_status status = make_grid(density, min, max, frame->spacing, error);
     if (status != SB_OK) return status;
     density->slice = min[1] >= max[1] && (max[0] > min[0] || max[2] > min[2]);
-    density->sided = ground && ground->side > 0 && ground->sided && !density->slice;
+    density->sided = ground && ground->side > 0 && ground->sided;
     density->floor = density->sided ? (float)(ground->floor_level - frame->origin.z) : 0;
     for (int a = 0; a < 2 && density->sided; a++) {
         const double origin = a ? frame->origin.y : frame->origin.x;

@@ -191,6 +191,22 @@ static float density_at(const sb_density *density, const sb_frame *frame, const 
     return share >= 1 ? here : fminf(here, share > 0 ? share : 0);
 }
 
+/* Moves a place of the plane half a spacing into the domain. The particles beside a side or the floor lie in one row
+   there, from which the field cannot be continued outwards. */
+static void keep_within(const sb_density *density, const sb_frame *frame, const sb_plane *plane, double *a, double *b)
+{
+    const double half = 0.5 * frame->spacing;
+    const sb_vec3 at = sb_sub(sb_plane_at(plane, *a, *b), frame->origin);
+    sb_vec3 inside = at;
+    if (!density->sided) return;
+    inside.x = fmin(fmax(at.x, (double)density->side_min[0] + half), (double)density->side_max[0] - half);
+    inside.y = fmin(fmax(at.y, (double)density->side_min[1] + half), (double)density->side_max[1] - half);
+    inside.z = fmax(at.z, (double)density->floor + half);
+    const sb_vec3 moved = sb_sub(inside, at);
+    *a += sb_dot(moved, plane->across);
+    *b += sb_dot(moved, plane->over);
+}
+
 sb_status sb_plane_field_fill(sb_plane_field *field, const sb_plane *plane, const sb_frame *frame, const float *values,
                               const sb_density *density, int threads, sb_error *error)
 {
@@ -212,8 +228,11 @@ sb_status sb_plane_field_fill(sb_plane_field *field, const sb_plane *plane, cons
             sb_plane_sample *node = &field->node[at];
             *node = (sb_plane_sample){.velocity = {NAN, NAN},
                                       .density = density_at(density, frame, plane, a, b, field->cell)};
-            if (node->density > 0.1f) gather(field, &cells, a, b, full, node);
             node->solid = field->solid[at];
+            if (!(node->density > 0.1f)) continue;
+            double inner[2] = {a, b};
+            keep_within(density, frame, plane, &inner[0], &inner[1]);
+            gather(field, &cells, inner[0], inner[1], full, node);
         }
     return SB_OK;
 }

@@ -93,11 +93,13 @@ static sb_status make_slicer(sb_renderer *r, const sb_model *model, sb_error *er
 static void set_sides(sb_ground *ground, const sb_scene *scene, const sb_model *model)
 {
     ground->floor_level = model->min.z;
-    ground->sided = scene->dimensions == 3 && !sb_scene_nested(scene);
+    static const double never = 1e9; /* m: a scene of two dimensions does not end along y */
+    const bool flat = scene->dimensions == 2;
+    ground->sided = !sb_scene_nested(scene);
     ground->side_min[0] = model->min.x;
-    ground->side_min[1] = model->min.y;
+    ground->side_min[1] = flat ? -never : model->min.y;
     ground->side_max[0] = model->max.x;
-    ground->side_max[1] = model->max.y;
+    ground->side_max[1] = flat ? never : model->max.y;
 }
 
 /* The context must be current. */

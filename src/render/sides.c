@@ -199,7 +199,7 @@ static void cut_pixel(const struct cut *cut, const float direction[3], float *su
 sb_status sb_sides_draw(sb_sides *sides, sb_splat *splat, const sb_density *density, const sb_frame *frame,
                         const float *values, const sb_ground *ground, const sb_view *view, int threads, sb_error *error)
 {
-    if (!density->sided || density->n[0] < 2) return SB_OK;
+    if (!density->sided || density->slice || density->n[0] < 2) return SB_OK;
     struct cut cut = {.density = density, .frame = frame, .ground = ground, .lens = sb_lens_of(view, frame->origin, 0)};
     const double ratio = (double)density->cell / frame->spacing;
     cut.full = (float)(0.5 * (double)reach * ratio * ratio * ratio);

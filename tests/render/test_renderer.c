@@ -180,6 +180,7 @@ static void a_drop_before_a_wall_does_not_show_the_water_behind_it(void **state)
     add_wall(&stage, sb_vec(-3, -20, -3), sb_vec(3, -19.5, 3));
     sb_frame *drop = water(stage.model.min, sb_vec(0, -21, 0), 1);
     memcpy(stage.frame->position, drop->position, 3 * sizeof(float));
+    stage.model.min.y = -25; /* the drop is within the domain */
     sb_image both = picture(&stage, stage.frame), alone = picture(&stage, drop);
     sb_frame *none = water(stage.model.min, sb_vec(0, 0, 0), 0);
     sb_image bare = picture(&stage, none);
