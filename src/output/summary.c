@@ -121,6 +121,10 @@ static void put_waves(sb_json *json, const sb_summary *s)
         sb_json_number(json, "highest_m", h->highest);
         sb_json_number(json, "mean_period_s", h->period);
         sb_json_number(json, "spectral_height_m", h->spectral);
+        sb_json_number(json, "crest_z_m", h->crest);
+        sb_json_number(json, "crest_s", h->crest_time);
+        sb_json_number(json, "trough_z_m", h->trough);
+        sb_json_number(json, "trough_s", h->trough_time);
         sb_json_open(json, "harmonics_m", '[');
         for (int k = 0; k < sb_wave_table_harmonics(s->scene); k++) sb_json_number(json, NULL, s->waves[g].harmonic[k]);
         sb_json_close(json);
@@ -162,6 +166,7 @@ static void put_reflections(sb_json *json, const sb_summary *s)
         sb_json_number(json, "incident_m", row->incident);
         sb_json_number(json, "reflected_m", row->reflected);
         sb_json_number(json, "coefficient", row->reflected / row->incident);
+        sb_json_number(json, "misfit_m", row->misfit);
         sb_json_bool(json, "distinct", row->separation >= SB_SEPARATION_TRUSTED);
         if (s->scene->measure.reflections[row->set].bound && row->harmonic > 1) {
             sb_json_number(json, "bound_incident_m", row->bound_incident);

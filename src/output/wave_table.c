@@ -71,6 +71,8 @@ static void put_row(FILE *stream, const char *gauge, const sb_gauge_waves *waves
     fputs(gauge, stream);
     for (size_t k = 0; k < sizeof values / sizeof *values; k++) sb_csv_put_number(stream, values[k]);
     for (int k = 0; k < SB_WAVE_HARMONICS; k++) sb_csv_put_number(stream, waves->harmonic[k]);
+    const double extremes[] = {h->crest, h->crest_time, h->trough, h->trough_time};
+    for (size_t k = 0; k < sizeof extremes / sizeof *extremes; k++) sb_csv_put_number(stream, extremes[k]);
     fputc('\n', stream);
 }
 
@@ -99,7 +101,8 @@ static sb_status write_all(const char *directory, const sb_scene *scene, const s
     sb_status status = sb_atomic_open_in(&file, directory, "waves.csv", error);
     if (status != SB_OK) return status;
     fputs(SB_WAVE_TABLE_START "to_s,waves,mean_z_m,mean_height_m,significant_height_m,highest_m,mean_period_s,"
-                              "spectral_height_m,harmonic_1_m,harmonic_2_m,harmonic_3_m,harmonic_4_m,harmonic_5_m\n",
+                              "spectral_height_m,harmonic_1_m,harmonic_2_m,harmonic_3_m,harmonic_4_m,harmonic_5_m,"
+                              "crest_z_m,crest_s,trough_z_m,trough_s\n",
           file.stream);
     for (size_t g = 0; g < scene->measure.gauge_count; g++)
         put_row(file.stream, scene->measure.gauges[g].name, &waves[g]);

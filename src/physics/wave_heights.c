@@ -45,12 +45,18 @@ static const double NOISE = 0.02;
 sb_status sb_wave_heights_of(const double *t, const double *z, size_t n, sb_wave_heights *heights, sb_error *error)
 {
     const double none = (double)NAN;
-    sb_wave_heights made = {0, none, none, none, none, none, none};
+    sb_wave_heights made = {0, none, none, none, none, none, none, none, none, none, none};
     double lasting, square = 0, *all = sb_alloc(n, sizeof *all);
     if (n > 0 && !all) return sb_fail_memory(error, "heights of waves");
     if (n > 0) made.level = 0;
     for (size_t i = 0; i < n; i++) made.level += z[i] / (double)n;
     for (size_t i = 0; i < n; i++) square += (z[i] - made.level) * (z[i] - made.level);
+    for (size_t i = 0; i < n; i++) {
+        if (!(z[i] <= made.crest)) made.crest_time = t[i];
+        if (!(z[i] >= made.trough)) made.trough_time = t[i];
+        made.crest = fmax(made.crest, z[i]);
+        made.trough = fmin(made.trough, z[i]);
+    }
     if (n > 0) made.spectral = 4 * sqrt(square / (double)n);
     made.count = find_waves(t, z, n, made.level, NOISE * made.spectral, all, &lasting);
     if (made.count > 0) {

@@ -15,6 +15,8 @@ typedef struct sb_wave_heights {
                                           number, of the highest wave */
     double period;                     /* s, mean */
     double spectral;                   /* m, four standard deviations of the series */
+    double crest, crest_time;          /* m, s: the highest elevation of the series, and when it was first */
+    double trough, trough_time;        /* m, s: the lowest */
 } sb_wave_heights;
 
 /* n elevations z in m at increasing times t in s. Crossings are interpolated linearly. Fails only without memory. */

@@ -16,7 +16,7 @@ const char *const sb_report_table_names[] = {
 /* Values that the page uses, the time included: of forces F and M, without their parts by pressure and friction. */
 static const size_t table_columns[] = {
     [SB_REPORT_FORCES] = 7,      [SB_REPORT_GAUGES] = 3, [SB_REPORT_RUNUP] = 6,
-    [SB_REPORT_OVERTOPPING] = 3, [SB_REPORT_PROBES] = 5, [SB_REPORT_ENERGY] = 16,
+    [SB_REPORT_OVERTOPPING] = 3, [SB_REPORT_PROBES] = 5, [SB_REPORT_ENERGY] = 19,
 };
 
 enum { SUMMARY_LIMIT = 64 << 20, LOG_LIMIT = 1 << 30, SCENE_LIMIT = 16 << 20 };

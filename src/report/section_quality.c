@@ -138,8 +138,15 @@ enum {
     IMBALANCE,
     STRESS,
     SEA,
-    SPONGE
+    SPONGE,
+    TENSION
 };
+
+/* A part that most runs do not have. */
+static void put_part(FILE *out, const char *name, double percent)
+{
+    if (percent != 0) sb_html_put(out, ", %s %g %%", name, percent);
+}
 
 /* The energy ledger of docs/method.md, section 11. All parts are in per cent of the greatest kinetic energy. */
 static void put_energy(FILE *out, const sb_report_run *run)
@@ -151,20 +158,25 @@ static void put_energy(FILE *out, const sb_report_run *run)
     double greatest = 0, ledger = 0;
     for (size_t row = 0; row < table->series[0].rows; row++)
         greatest = fmax(greatest, values[row * table->columns + KINETIC]);
-    for (int c = BODIES; c <= SPONGE && (size_t)c < table->columns; c++)
+    for (int c = BODIES; c <= TENSION; c++)
         if (c != IMBALANCE) ledger += last[c] - first[c];
     const double change = last[KINETIC] + last[POTENTIAL] - first[KINETIC] - first[POTENTIAL];
     const double percent = greatest > 0 ? 100 / greatest : 0;
-    const double numeric = last[PRESSURE] + last[CONTACT] + last[INTEGRATION] + last[STRESS];
     const double open = percent * fabs(change - ledger);
     begin(out, open > 1 || !isfinite(open) ? BAD : GOOD, "Energy.");
     sb_html_put(
         out,
         "The itemised changes of the water’s energy add up to its total change within %s%g %%. All parts are in "
         "per cent of the greatest kinetic energy: work of moving bodies %g %%, viscosity and wall friction "
-        "%g %%, pressure solve, impacts and time integration %g %%, water that left %g %%.",
+        "%g %%, stress of the particle packing %g %%, pressure solve, impacts and time integration %g %%, water that "
+        "left %g %%",
         open < 0.01 ? "less than " : "", fmax(open, 0.01), percent * last[BODIES],
-        percent * (last[VISCOSITY] + last[FRICTION]), percent * numeric, percent * last[LEFT]);
+        percent * (last[VISCOSITY] + last[FRICTION]), percent * last[STRESS],
+        percent * (last[PRESSURE] + last[CONTACT] + last[INTEGRATION]), percent * last[LEFT]);
+    put_part(out, "given sea", percent * last[SEA]);
+    put_part(out, "sponges", percent * last[SPONGE]);
+    put_part(out, "surface tension", percent * last[TENSION]);
+    fputs(".", out);
     finish(out);
 }
 

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { CELLS = 6 };
+enum { CELLS = 8 };
 
 /* A list of the summary, and what the page shows of each item. */
 typedef struct shown {
@@ -27,7 +27,9 @@ static const shown all[] = {
       {"significant_height_m", "Highest third, m"},
       {"highest_m", "Highest, m"},
       {"mean_height_m", "Mean height, m"},
-      {"mean_period_s", "Mean period, s"}}},
+      {"mean_period_s", "Mean period, s"},
+      {"crest_z_m", "Highest crest, z in m"},
+      {"crest_s", "at, s"}}},
     {"overtopping",
      "Overtopping beside EurOtop",
      "plane",
@@ -71,10 +73,22 @@ static void put_shown(FILE *out, const json_t *list, const shown *s)
     finish(out);
 }
 
-static void put_amplitudes(FILE *out, const char *name, const char *period, double incident, double reflected)
+/* Over the incident amplitude: the largest misfit of waves that count as split. */
+static const double SPLIT = 0.5;
+
+static void put_amplitudes(FILE *out, const char *name, const char *period, double incident, double reflected,
+                           double misfit)
 {
-    sb_html_put(out, "<tr><th scope=\"row\">%s</th><td>%s</td><td>%g</td><td>%g</td><td>%g</td></tr>\n", name, period,
-                incident, reflected, reflected / incident);
+    const bool split = !(misfit > SPLIT * incident);
+    sb_html_put(out, "<tr><th scope=\"row\">%s</th><td>%s</td><td>%g</td><td>%g</td><td>%g</td><td>%g</td></tr>\n",
+                name, period, incident, reflected, split ? reflected / incident : (double)NAN, misfit);
+}
+
+/* Whether the gauges can tell the two waves of a period apart, and these are what the gauges have. */
+static bool is_split(const json_t *item)
+{
+    return !json_is_false(json_object_get(item, "distinct")) &&
+           !(sb_report_item_number(item, "misfit_m") > SPLIT * sb_report_item_number(item, "incident_m"));
 }
 
 /* A set's periods, of few, and all of them together. Returns the index behind the set. */
@@ -88,7 +102,7 @@ static size_t put_set(FILE *out, const json_t *list, size_t from)
         const json_t *item = json_array_get(list, end);
         const char *its = name_of(item, "name");
         if (!name || !its || strcmp(name, its) != 0) break;
-        if (json_is_false(json_object_get(item, "distinct"))) continue;
+        if (!is_split(item)) continue;
         incident += pow(sb_report_item_number(item, "incident_m"), 2);
         reflected += pow(sb_report_item_number(item, "reflected_m"), 2);
     }
@@ -97,9 +111,10 @@ static size_t put_set(FILE *out, const json_t *list, size_t from)
         const json_t *item = json_array_get(list, i);
         char period[SB_FIGURE_MAX];
         put_amplitudes(out, name, sb_figure(period, sb_report_item_number(item, "period_s")),
-                       sb_report_item_number(item, "incident_m"), sb_report_item_number(item, "reflected_m"));
+                       sb_report_item_number(item, "incident_m"), sb_report_item_number(item, "reflected_m"),
+                       sb_report_item_number(item, "misfit_m"));
     }
-    if (end - from > 1) put_amplitudes(out, name, "all", sqrt(incident), sqrt(reflected));
+    if (end - from > 1) put_amplitudes(out, name, "all", sqrt(incident), sqrt(reflected), (double)NAN);
     return end;
 }
 
@@ -107,9 +122,12 @@ static void put_reflections(FILE *out, const json_t *list)
 {
     begin(out, "Reflection",
           "Amplitudes of the waves that come and of those that go back. All: roots of the sums of squares, of the "
-          "periods at which the gauges can tell both apart. Single periods are shown of sets with up to ten.",
+          "periods at which the gauges can tell both apart and the misfit is at most half of the incident amplitude. "
+          "Misfit: what the gauges have beside both waves. Where it is larger, as of a harmonic that is bound to a "
+          "longer wave, the period is not split. Single periods are shown of sets with up to ten.",
           "Gauges");
-    fputs("<th>Period, s</th><th>Incident, m</th><th>Reflected, m</th><th>Reflected over incident</th></tr></thead>"
+    fputs("<th>Period, s</th><th>Incident, m</th><th>Reflected, m</th><th>Reflected over incident</th>"
+          "<th>Misfit, m</th></tr></thead>"
           "<tbody>\n",
           out);
     for (size_t i = 0; i < json_array_size(list);) i = put_set(out, list, i);

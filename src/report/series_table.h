@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { SB_SERIES_COLUMNS_MAX = 16 }; /* of values, the time included */
+enum { SB_SERIES_COLUMNS_MAX = 20 }; /* of values, the time included */
 
 typedef struct sb_series {
     char *name;

@@ -65,8 +65,10 @@ static inline void make_run(void)
     write_text("run/gauges.csv", "time_s,gauge,eta_m,z_m\n0,near,,0.5\n0.1,near,,0.6\n0.2,near,,\n0.3,near,,0.4\n");
     write_text("run/energy.csv", "time_s,kinetic_J,potential_J,mass_kg,momentum_x_kg_m_s,momentum_y_kg_m_s,"
                                  "momentum_z_kg_m_s,bodies_J,viscosity_J,wall_friction_J,pressure_solve_J,contact_J,"
-                                 "time_integration_J,left_domain_J,momentum_imbalance,packing_stress_J\n"
-                                 "0,0,100,1,0,0,0,0,0,0,0,0,0,0,0,0\n0.1,10,88,1,0,0,0,0,-1,0,-1,0,0,0,0,0\n");
+                                 "time_integration_J,left_domain_J,momentum_imbalance,packing_stress_J,sea_J,"
+                                 "sponge_J,surface_tension_J\n"
+                                 "0,0,100,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0\n"
+                                 "0.1,10,68,1,0,0,0,0,-1,0,-1,0,0,0,0,0,0,-20,0\n");
     write_forces(2, 100, 50);
 }
 

@@ -23,7 +23,9 @@ static void page_of_a_run(void **state)
         "in which it was worst, by 1 %.",
         "<b class=\"mark\">good</b><div><b>Density.</b>",
         "id=\"data\"",
-        "add up to its total change within less than 0.01 %"};
+        "add up to its total change within less than 0.01 %",
+        "stress of the particle packing 0 %",
+        "sponges -200 %."};
     for (size_t p = 0; p < sizeof parts / sizeof *parts; p++) assert_has(text, parts[p]);
     assert_null(strstr(text, "Missing or damaged files"));
     /* No address is opened: dygraphs and the styles are in the page. */
@@ -165,16 +167,19 @@ static void waves_of_the_summary(void **state)
     write_text("run/summary.json",
                "{\"status\":\"done\",\"waves\":[{\"gauge\":\"toe<\",\"waves\":37,\"spectral_height_m\":0.23,"
                "\"mean_period_s\":1.56}],\"reflections\":[{\"name\":\"set\",\"period_s\":2,\"incident_m\":0.1,"
-               "\"reflected_m\":0.05,\"coefficient\":0.5},{\"name\":\"set\",\"period_s\":1,\"incident_m\":0.02,"
+               "\"reflected_m\":0.05,\"misfit_m\":0.01,\"coefficient\":0.5},{\"name\":\"set\",\"period_s\":1,"
+               "\"incident_m\":0.02,"
                "\"reflected_m\":0.01,"
                "\"coefficient\":0.5},{\"name\":\"set\",\"period_s\":0.5,\"incident_m\":1,\"reflected_m\":1,"
-               "\"distinct\":false},{\"name\":7}],"
+               "\"distinct\":false},{\"name\":\"set\",\"period_s\":0.7,\"incident_m\":0.004,\"reflected_m\":0.006,"
+               "\"misfit_m\":0.003},{\"name\":7}],"
                "\"overtopping\":[{\"plane\":\"crest\",\"rate_m2_s\":0.0046,\"eurotop_m2_s\":0.00463}]}");
     char *text = report_text();
     assert_has(text, "Waves at gauges");
     assert_has(text, "<tr><th scope=\"row\">toe&lt;</th><td>37</td><td>0.23</td>");
-    assert_has(text, "<tr><th scope=\"row\">set</th><td>2</td><td>0.1</td><td>0.05</td><td>0.5</td></tr>");
-    assert_has(text, "<tr><th scope=\"row\">set</th><td>all</td><td>0.102</td><td>0.051</td><td>0.5</td></tr>");
+    assert_has(text, "<tr><th scope=\"row\">set</th><td>2</td><td>0.1</td><td>0.05</td><td>0.5</td><td>0.01</td></tr>");
+    assert_has(text,
+               "<tr><th scope=\"row\">set</th><td>all</td><td>0.102</td><td>0.051</td><td>0.5</td><td>–</td></tr>");
     assert_has(text, "Overtopping beside EurOtop");
     assert_has(text, "<td>0.0046</td><td>0.00463</td>");
     sb_free(text);
