@@ -66,13 +66,14 @@ static sb_status check_header(const reading *r, size_t number, const char *line,
     char units[COLUMNS_MAX + 1];
     const char *unit = sb_columns_unit(line, strlen(line));
     if (unit)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: its header names the unit %s, expected seconds and metres",
-                       r->path, number, unit);
+        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: its header names the unit %s, expected \"%s\"", r->path,
+                       number, unit, r->expected);
     find_units(r->expected, units);
     const size_t column = sb_columns_misplaced(line, strlen(line), units);
-    if (column == 0) return SB_OK;
-    return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: column %zu has another unit in the header, expected \"%s\"",
-                   r->path, number, column, r->expected);
+    const size_t named = sb_columns_misnamed(line, strlen(line), r->expected);
+    if (column == 0 && named == 0) return SB_OK;
+    return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: column %zu has another %s in the header, expected \"%s\"", r->path,
+                   number, column > 0 ? column : named, column > 0 ? "unit" : "name", r->expected);
 }
 
 /* Reads one line without its newline. A comment or an empty line is no row. */
