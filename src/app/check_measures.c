@@ -6,6 +6,7 @@
 #include "physics/eurotop.h"
 #include "physics/reflection.h"
 
+#include <math.h>
 #include <stdio.h>
 
 static void warn_of_waves(const sb_scene *scene, sb_warning_visit *visit, void *context)
@@ -44,6 +45,27 @@ static void warn_of_waves(const sb_scene *scene, sb_warning_visit *visit, void *
     }
 }
 
+/* Rows per period that show heights and crossings within a per cent or two. */
+static const double ROWS = 10;
+
+/* Too few rows per period cut the crests. */
+static void warn_of_rows(const sb_scene *scene, sb_warning_visit *visit, void *context)
+{
+    char text[300];
+    double least = (double)INFINITY;
+    if (!scene->measure.waves.present && scene->measure.reflection_count == 0) return;
+    for (size_t w = 0; w < scene->wavemaker_count; w++)
+        if (scene->wavemakers[w].law.period > 0) least = fmin(least, scene->wavemakers[w].law.period);
+    if (scene->given.source == SB_GIVEN_THEORY && scene->given.wave == SB_GIVEN_REGULAR)
+        least = fmin(least, scene->given.period);
+    if (!(scene->measure.interval > least / ROWS)) return;
+    snprintf(text, sizeof text,
+             "measure.interval: %g s gives %.2g rows in a period of %g s: heights and crossings of waves are cut; "
+             "expected at most %.3g s",
+             scene->measure.interval, least / scene->measure.interval, least, least / ROWS);
+    visit(context, text);
+}
+
 /* EurOtop has another formula for slopes behind a shallow foreshore, which breaks the waves. */
 static void warn_of_foreshore(const sb_scene *scene, const sb_flow_plane *plane, sb_warning_visit *visit, void *context)
 {
@@ -78,5 +100,6 @@ static void warn_of_rates(const sb_scene *scene, sb_warning_visit *visit, void *
 void sb_measure_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
     warn_of_waves(scene, visit, context);
+    warn_of_rows(scene, visit, context);
     warn_of_rates(scene, visit, context);
 }

@@ -134,12 +134,25 @@ static void warn_of_gauges(const sb_scene *scene, const sb_sponge *sponge, sb_wa
     }
 }
 
+/* Waves of a sea come in through the side at which the sponge is strongest. */
+static void warn_of_sea(const sb_scene *scene, const sb_sponge *sponge, sb_warning_visit *visit, void *context)
+{
+    char text[300];
+    if (!sb_scene_given_side(scene, sponge->side)) return;
+    snprintf(text, sizeof text,
+             "sponge \"%s\": the waves of the sea come in through %s, where it is strongest: it takes them; expected "
+             "the sponge at another side",
+             sponge->name, sb_side_names[sponge->side]);
+    visit(context, text);
+}
+
 void sb_zone_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
     for (size_t s = 0; s < scene->sponge_count; s++) {
         warn_of_beginning(scene, &scene->sponges[s], visit, context);
         warn_of_reflection(scene, &scene->sponges[s], visit, context);
         warn_of_gauges(scene, &scene->sponges[s], visit, context);
+        warn_of_sea(scene, &scene->sponges[s], visit, context);
         for (size_t t = 0; t < s; t++) warn_of_overlap(scene, &scene->sponges[t], &scene->sponges[s], visit, context);
     }
 }

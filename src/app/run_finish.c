@@ -119,6 +119,20 @@ static void report_lost(run *r)
     if (lost_of(r, text, sizeof text) > 0) sb_run_warn(r, "%s", text);
 }
 
+/* Share of all steps: more that end above the tolerance are no single impacts. */
+static const double CAPPED_MAX = 0.02;
+
+static void warn_of_capped(run *r)
+{
+    const uint64_t steps = sb_sim_report(r->sim)->step;
+    if (!((double)r->capped > CAPPED_MAX * (double)steps)) return;
+    sb_run_warn(r,
+                "in %llu of %llu steps the pressure solve stopped at numerics.max_iterations, above its tolerance: "
+                "pressures, forces and the water's volume are doubtful; expected a larger max_iterations, or a larger "
+                "tolerance",
+                (unsigned long long)r->capped, (unsigned long long)steps);
+}
+
 /* Particle spacings. A thinner layer is only single particles. */
 static const double FILM = 0.25;
 
@@ -327,6 +341,7 @@ void sb_run_finish(run *r, sb_status *status, sb_error *error)
     }
     if (r->measure) {
         warn_of_gauges(r);
+        warn_of_capped(r);
         sb_runlog_bodies(r->log, &r->model, sb_measure_bodies(r->measure));
         const sb_map_record *map = sb_measure_map(r->measure);
         if (map) keep_first(status, error, sb_maps_write(r->directory, map, false, &reason), &reason);

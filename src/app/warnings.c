@@ -3,6 +3,7 @@
 #include "app/check_measures.h"
 #include "app/check_numerics.h"
 #include "app/check_reflections.h"
+#include "app/check_sea.h"
 #include "app/check_tension.h"
 #include "app/check_zones.h"
 #include "app/wave_warnings.h"
@@ -83,6 +84,8 @@ sb_status sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void
     sb_period_warning(scene, "measure.waves.period", scene->measure.waves.period, visit, context);
     sb_measure_warnings(scene, visit, context);
     sb_zone_warnings(scene, visit, context);
+    sb_sea_warnings(scene, visit, context);
+    sb_breaking_warnings(scene, visit, context);
     if (scene->measure.interval > scene->duration) {
         snprintf(text, sizeof text,
                  "measure.interval: %g s is longer than the run of %g s: forces.csv gets no row, and the other tables "

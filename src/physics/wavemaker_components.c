@@ -42,6 +42,9 @@ static void add_wave(sb_wave_train *train, const double v[3])
     sb_wave_train_set(train, i, cabs(sum), omega, carg(sum));
 }
 
+/* Each step sums them. */
+enum { ROWS_MAX = 10000 };
+
 /* Share of the amplitudes that is left of waves that cancel. */
 static const double NOTHING = 1e-9;
 
@@ -51,6 +54,9 @@ static sb_status create(const sb_wavemaker_parameters *p, void **state, sb_error
     sb_number_rows rows;
     sb_status status = sb_number_rows_read(p->file, 3, "amplitude (m) period (s) phase (degrees)", &rows, error);
     if (status != SB_OK) return status;
+    if (rows.count > ROWS_MAX)
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: %zu waves, expected at most %d", p->file,
+                         rows.lines[ROWS_MAX], rows.count, ROWS_MAX);
     const double *values = rows.values;
     for (size_t i = 0; i < rows.count && status == SB_OK; i++)
         status = check_wave(p, rows.lines[i], values + 3 * i, error);

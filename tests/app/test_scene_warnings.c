@@ -270,6 +270,28 @@ static const struct {
           "wavemakers: [{name: w, body: paddle, kind: regular, height: 0.1, period: 1.5, depth: 0.5}, "
           "{name: eater, body: far, kind: absorber, direction: [-1, 0, 0], depth: 0.5, period: 7}]\n",
      "wave maker \"eater\": it absorbs waves of 7 s, and those of \"w\" have 1.5 s", "expected period: 1.5"},
+    {FLUME("kind: regular, height: 0.65, period: 2.3", "", ""), "wave maker \"w\": a height of 0.65 m is 9",
+     "expected at most 0.5"},
+    {FLUME("kind: irregular, height: 0.6, period: 2.3, seed: 1", "", ""),
+     "wave maker \"w\": the highest waves, 1.5 times as high", "expected at most 0.4"},
+    {"title: t\ndimensions: 2\nresolution: 0.1\nduration: 0.02\noutput: {plots: false}\n"
+     "domain: {min: [-1, 0], max: [10, 2]}\nwater: {level: 1, seed: [2, 0.5]}\n"
+     "bodies: [{name: paddle, shape: box, min: [-0.5, 0], max: [0, 1.8]}]\n"
+     "wavemakers: [{name: w, body: paddle, depth: 1, " WAVES "}]\n"
+     "measure: {interval: 0.4, gauges: [{name: a, x: 1}], waves: {}}\n",
+     "measure.interval: 0.4 s gives 5.7 rows in a period of 2.3 s", "expected at most 0.23 s"},
+    {PERIODIC("kind: regular, depth: 0.5, height: 0.22, wavelength: 2"), "water.wave: a height of 0.22 m is",
+     "they may break on their way"},
+    {GIVEN("source: theory, wave: regular, height: 0.33, period: 2.3, depth: 0.5", ""), "sea: a height of 0.33 m is",
+     "they may break on their way"},
+    {GIVEN("source: theory, wave: regular, height: 0.1, period: 2.3, depth: 0.5, ramp: 3", ""),
+     "sea.ramp: the waves grow over 3 s", "the run ends after 0.02 s of it"},
+    {GIVEN("source: theory, wave: regular, height: 0.1, period: 2.3, depth: 0.5, start: 3", ""),
+     "sea.start: 3 s is not before the end of the run", "no waves come in"},
+    {GIVEN("source: theory, wave: regular, height: 0.1, period: 2.3, depth: 0.5", "") "sponges: [{name: eater, side: "
+                                                                                      "x_min, length: 3, period: 2.3, "
+                                                                                      "depth: 0.5}]\n",
+     "sponge \"eater\": the waves of the sea come in through x_min", "expected the sponge at another side"},
     {TANK "domain: {min: [-1, 0], max: [4, 0.8]}\nwater: {level: 0.5, seed: [1, 0.2]}\n"
           "bodies: [{name: paddle, shape: box, min: [-0.5, 0], max: [0, 0.7]}]\n"
           "wavemakers: [{name: w, body: paddle, kind: absorber, depth: 0.25, period: 2}]\n",
@@ -322,19 +344,37 @@ static void a_run_warns_of_gauges_that_were_dry(void **state)
     outcome_free(&o);
 }
 
+/* Solves that stop above their tolerance leave pressures that nobody should use. */
+static void a_run_warns_of_capped_solves(void **state)
+{
+    (void)state;
+    write_text("capped.yaml", "title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.3\noutput: {plots: false}\n"
+                              "domain: {min: [0, 0], max: [2, 1]}\nwater: {boxes: [{min: [0, 0], max: [0.5, 0.6]}]}\n");
+    outcome o = RUN(0, "run", "capped.yaml", "--out=capped", "--quiet", "--set", "numerics.max_iterations=1", "--set",
+                    "numerics.min_iterations=1");
+    assert_int_equal(lines_with(o.err, "steps the pressure solve stopped at numerics.max_iterations",
+                                "expected a larger max_iterations"),
+                     1);
+    outcome_free(&o);
+    o = RUN(0, "run", "capped.yaml", "--out=met", "--quiet");
+    assert_null(strstr(o.err, "max_iterations"));
+    outcome_free(&o);
+}
+
 /* Waves that are high and long enough, and a plane where they pass. */
 static void right_seas_give_no_warnings(void **state)
 {
     (void)state;
     write_text("given.yaml", GIVEN(SUM("{amplitude: 0.13, period: 1.5}, {amplitude: 0.01, period: 1}"),
                                    ", planes: [{name: line, from: [2], record: true}]"));
-    outcome o = RUN(0, "check", "given.yaml");
+    outcome o = RUN(0, "check", "given.yaml", "--set", "duration=20");
     assert_null(strstr(o.out, "warning: sea"));
     assert_null(strstr(o.out, "warning: measure"));
     outcome_free(&o);
     /* The first is a tide, whose amplitude is no height of waves. */
-    write_text("given.yaml", GIVEN(SUM("{amplitude: 0.2, period: 44000}, {amplitude: 0.13, period: 1.5}"), ""));
-    o = RUN(0, "check", "given.yaml");
+    write_text("given.yaml",
+               GIVEN(SUM("{amplitude: 0.2, period: 44000}, {amplitude: 0.13, period: 1.5}") ", ramp: 3", ""));
+    o = RUN(0, "check", "given.yaml", "--set", "duration=20");
     assert_null(strstr(o.out, "warning: sea"));
     outcome_free(&o);
     /* Two waves that meet do not grow on their way; and water that ends at a trough. */
@@ -414,6 +454,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(check_and_run_give_the_same_warnings),
         cmocka_unit_test(a_run_warns_of_gauges_that_were_dry),
+        cmocka_unit_test(a_run_warns_of_capped_solves),
         cmocka_unit_test(right_seas_give_no_warnings),
         cmocka_unit_test(right_sponges_give_no_warnings),
         cmocka_unit_test(right_numerics_give_no_warnings),
