@@ -90,8 +90,7 @@ static sb_status take_directory(run *r, origin from, sb_error *error)
 /* The top of the colour map depends on the scene, not on each picture, so that all pictures of a run match. */
 static void resolve(run *r)
 {
-    if (!(r->resolved.render.speed_max > 0))
-        r->resolved.render.speed_max = 2 * sb_model_wave_speed(r->scene, &r->model);
+    r->resolved.render.speed_max = sb_model_speed_scale(r->scene, &r->model);
 }
 
 static sb_status build_model(run *r, bool resume, sb_error *error)

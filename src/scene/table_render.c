@@ -73,7 +73,8 @@ static const sb_key render_keys[] = {
      .min = 16, .max = 16384, .fallback = "720", .doc = "Height of a picture."},
     {.name = "speed_max", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_render_settings, speed_max),
      .unit = "m/s", SB_KEY_NOT_NEGATIVE, .fallback = "0",
-     .doc = "Speed at the upper end of the colour map; 0: 2 sqrt(g D)."},
+     .doc = "Speed at the upper end of the colour map; 0: 2 sqrt(g D), or three times that of the scene's waves at the "
+            "surface by linear theory, if regular or irregular waves are all that moves and this is less."},
     {.name = "video", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_render_settings, video),
      .fallback = "true", .flags = SB_KEY_FREE,
      .doc = "Whether to join each camera's pictures to a film, if ffmpeg is installed."},

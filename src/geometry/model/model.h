@@ -98,6 +98,10 @@ static inline double sb_model_wave_speed(const sb_scene *scene, const sb_model *
     return sqrt(scene->fluid.gravity * fmax(fmax(model->still_depth, model->sea_depth), scene->resolution));
 }
 
+/* speed_scale.c: returns render.speed_max, or for 0 the speed that stands for it, m/s: 2 sqrt(g D); or less, where all
+   water moves by regular or irregular waves, whose speeds are known. */
+double sb_model_speed_scale(const sb_scene *scene, const sb_model *model);
+
 /* The boundary particles of a body, of all ranks. */
 static inline size_t sb_model_body_walls(const sb_model *model, size_t body)
 {
