@@ -70,28 +70,42 @@ static void warn_of_length(const sb_scene *scene, const sb_reflection_set *set, 
     }
 }
 
-/* The one wave maker of regular waves; NULL: there is none, or several. */
-static const sb_wavemaker_use *regular_of(const sb_scene *scene)
+/* What makes the regular waves of a scene, as messages name it, and their period, s. */
+typedef struct regular_waves {
+    const char *maker, *name;
+    double period; /* 0: there are none, or several */
+} regular_waves;
+
+static void note(regular_waves *found, bool *several, const char *maker, const char *name, double period)
 {
-    const sb_wavemaker_use *found = NULL;
-    for (size_t w = 0; w < scene->wavemaker_count; w++) {
-        if (strcmp(scene->wavemakers[w].law.kind->name, "regular") != 0) continue;
-        if (found) return NULL;
-        found = &scene->wavemakers[w];
-    }
-    return found;
+    *several |= found->period > 0;
+    *found = (regular_waves){maker, name, period};
+}
+
+static regular_waves regular_of(const sb_scene *scene)
+{
+    regular_waves found = {0};
+    bool several = false;
+    for (size_t w = 0; w < scene->wavemaker_count; w++)
+        if (strcmp(scene->wavemakers[w].law.kind->name, "regular") == 0)
+            note(&found, &several, "", scene->wavemakers[w].name, scene->wavemakers[w].law.period);
+    if (scene->given.source == SB_GIVEN_THEORY && scene->given.wave == SB_GIVEN_REGULAR)
+        note(&found, &several, "block ", "sea", scene->given.period);
+    if (scene->wave.kind == SB_INITIAL_REGULAR)
+        note(&found, &several, "block ", "water.wave", scene->wave.wavelength / scene->wave.stokes.celerity);
+    return several ? (regular_waves){0} : found;
 }
 
 void sb_period_warning(const sb_scene *scene, const char *what, double period, sb_warning_visit *visit, void *context)
 {
     char text[300];
-    const sb_wavemaker_use *maker = regular_of(scene);
-    const double ratio = maker ? period / maker->law.period : 1;
+    const regular_waves waves = regular_of(scene);
+    const double ratio = waves.period > 0 ? period / waves.period : 1;
     if (!(period > 0) || (ratio > 0.5 && fabs(ratio - round(ratio)) < 0.005 * ratio)) return;
     snprintf(text, sizeof text,
-             "%s: %g s is not the period of the waves of \"%s\", %g s, so that its harmonics are not theirs; expected "
-             "that period",
-             what, period, maker->name, maker->law.period);
+             "%s: %g s is not the period of the waves of %s\"%s\", %.5g s, so that its harmonics are not theirs; "
+             "expected that period",
+             what, period, waves.maker, waves.name, waves.period);
     visit(context, text);
 }
 

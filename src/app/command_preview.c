@@ -237,6 +237,7 @@ static sb_status preview_scene(const sb_options *options, sb_error *error)
     if (status == SB_OK) status = sb_fit_check(&scene, error);
     if (status == SB_OK) status = sb_model_build(&scene, &model, error);
     for (size_t w = 0; w < model.warning_count; w++) warn(NULL, model.warnings[w]);
+    if (status == SB_OK) scene.render.speed_max = sb_model_speed_scale(&scene, &model);
     if (status == SB_OK) status = draw(&scene, &model, path, &tiles, error);
     if (status == SB_OK && scene.render.camera_count > CAMERAS_MAX)
         fprintf(stderr, "shorebreak: warning: %zu cameras, of which the first %d are drawn\n",

@@ -8,7 +8,7 @@
 static const float body_color[3] = {0.93f, 0.88f, 0.78f}, maker_color[3] = {1.0f, 0.55f, 0.15f},
                    gauge_color[3] = {0.35f, 0.95f, 0.55f}, probe_color[3] = {1.0f, 0.45f, 0.75f},
                    plane_color[3] = {0.75f, 0.60f, 1.0f}, runup_color[3] = {1.0f, 0.88f, 0.30f},
-                   domain_color[3] = {0.78f, 0.83f, 0.88f};
+                   sponge_color[3] = {0.45f, 0.75f, 1.0f}, domain_color[3] = {0.78f, 0.83f, 0.88f};
 
 /* What all marks of one picture share. The first failure ends the drawing. */
 typedef struct drawing {
@@ -107,6 +107,32 @@ static void mark_wavemaker(drawing *d, const sb_model_body *body, sb_vec3 from)
     name(d, to, maker_color, text);
 }
 
+/* The outline of each sponge at the still level, and a line up where it begins. */
+static void mark_sponges(drawing *d)
+{
+    const bool flat = d->model->dimensions == 2;
+    for (size_t k = 0; k < d->scene->sponge_count; k++) {
+        const sb_sponge *sponge = &d->scene->sponges[k];
+        sb_vec3 a = d->model->min, b = d->model->max;
+        const double begin = sponge->end + (sponge->side % 2 ? -sponge->length : sponge->length);
+        double *const from = sponge->side / 2 == 0 ? &a.x : &a.y, *const to = sponge->side / 2 == 0 ? &b.x : &b.y;
+        if (flat) a.y = b.y = 0;
+        if (sponge->side % 2)
+            *from = fmax(begin, *from);
+        else
+            *to = fmin(begin, *to);
+        a.z = b.z = d->scene->sea.present ? d->scene->sea.level : d->model->max.z;
+        line(d, a, sb_vec(b.x, a.y, a.z), sponge_color);
+        line(d, sb_vec(a.x, b.y, a.z), b, sponge_color);
+        line(d, a, sb_vec(a.x, b.y, a.z), sponge_color);
+        line(d, sb_vec(b.x, a.y, a.z), b, sponge_color);
+        const sb_vec3 foot = sb_vec(sponge->side / 2 == 0 ? begin : 0.5 * (a.x + b.x),
+                                    sponge->side / 2 == 1 ? begin : 0.5 * (a.y + b.y), d->model->min.z);
+        line(d, foot, sb_vec(foot.x, foot.y, d->model->max.z), sponge_color);
+        name_place(d, sb_vec(foot.x, foot.y, d->model->max.z), sponge_color, "sponge", sponge->name);
+    }
+}
+
 static void mark_bodies(drawing *d, bool names)
 {
     for (size_t b = 0; b < d->model->body_count; b++) {
@@ -163,6 +189,7 @@ sb_status sb_preview_marks(const sb_scene *scene, const sb_model *model, unsigne
 {
     drawing d = {.scene = scene, .model = model, .view = view, .image = image, .error = error};
     mark_domain(&d);
+    if (marks & SB_MARK_PLACES) mark_sponges(&d);
     if (marks & SB_MARK_PLACES) mark_planes(&d);
     mark_bodies(&d, marks & SB_MARK_BODIES);
     if (marks & SB_MARK_PLACES) mark_points(&d);

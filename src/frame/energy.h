@@ -41,6 +41,7 @@ typedef struct sb_crossing {
 /* What an absorbing paddle has done. */
 typedef struct sb_absorption {
     bool absorbs;
+    double law;              /* m, displacement by its law at the end of the step */
     double offset, farthest; /* m, distance from its law: at the end of the step, and the largest so far */
     uint64_t limited;        /* steps in which its reach stopped it; of plates, their sum */
     uint64_t plates;         /* push-plates, of which offset is the mean; 0: the paddle is one */

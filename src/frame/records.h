@@ -82,9 +82,9 @@ typedef struct sb_energy_record {
 
 /* A paddle that absorbs, at the end of the first step that passed a multiple of the interval. */
 typedef struct sb_absorber_record {
-    size_t body;          /* index into the model's bodies */
-    double time;          /* s */
-    double offset, drift; /* m, as in sb_absorption */
+    size_t body;               /* index into the model's bodies */
+    double time;               /* s */
+    double offset, drift, law; /* m, as in sb_absorption */
 } sb_absorber_record;
 
 /* All records of the last step; the arrays are valid until the next one. */

@@ -181,7 +181,7 @@ static sb_status record_absorbers(sb_measure *measure, const sb_sim *sim, sb_err
         if (!one.absorbs) continue;
         sb_absorber_record *record = append(measure, ABSORBERS);
         if (!record) return sb_fail_memory(error, "records of absorbing paddles");
-        *record = (sb_absorber_record){b, sb_sim_report(sim)->time, one.offset, one.drift};
+        *record = (sb_absorber_record){b, sb_sim_report(sim)->time, one.offset, one.drift, one.law};
     }
     return SB_OK;
 }

@@ -236,6 +236,7 @@ static void write_absorbers(FILE *stream, const sb_scene *scene, const sb_model 
     begin(stream, row->time, model->bodies[row->body].name);
     sb_csv_put_number(stream, row->offset);
     sb_csv_put_number(stream, row->drift);
+    sb_csv_put_number(stream, row->law);
 }
 
 const sb_csv_table sb_csv_tables[] = {
@@ -302,8 +303,8 @@ const sb_csv_table sb_csv_tables[] = {
      .count = count_waters,
      .write = write_waters},
     {.name = "absorbers",
-     .header = "time_s,body,offset_m,drift_m",
-     .flat_header = "time_s,body,offset_m,drift_m",
+     .header = "time_s,body,offset_m,drift_m,law_m",
+     .flat_header = "time_s,body,offset_m,drift_m,law_m",
      .wanted = has_absorbers,
      .count = count_absorbers,
      .write = write_absorbers},

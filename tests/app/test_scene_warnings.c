@@ -9,6 +9,9 @@
 #define TANK                                                                                                           \
     "title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\nmeasure: {interval: 0.01}\noutput: {plots: false}\n"
 
+/* The same without measurements. */
+#define SMALL "title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\noutput: {plots: false}\n"
+
 #define STILL TANK "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
 
 #define WAVES_BY(law)                                                                                                  \
@@ -282,6 +285,14 @@ static const struct {
      "measure.interval: 0.4 s gives 5.7 rows in a period of 2.3 s", "expected at most 0.23 s"},
     {PERIODIC("kind: regular, depth: 0.5, height: 0.22, wavelength: 2"), "water.wave: a height of 0.22 m is",
      "they may break on their way"},
+    {SMALL "domain: {min: [0, 0], max: [4, 1], sides: {x_min: periodic, x_max: periodic}}\n"
+           "water: {level: 0.5, seed: [1, 0.2], wave: {kind: regular, depth: 0.5, height: 0.1, wavelength: 4}}\n"
+           "measure: {interval: 0.01, gauges: [{name: a, x: 1}], waves: {period: 1.5}}\n",
+     "measure.waves.period: 1.5 s is not the period of the waves of block \"water.wave\", 1.9", "expected that period"},
+    {SMALL "domain: {min: [0, 0], max: [2, 1]}\nwater: {level: 0.4, seed: [1, 0.2]}\n"
+           "bodies: [{name: block, shape: box, min: [1.2, 0], max: [1.8, 0.3]}]\n"
+           "measure: {interval: 0.01, probes: [{name: in, at: [1.5, 0.15]}, {name: on, at: [1.2, 0.15]}]}\n",
+     "probe \"in\" is inside of \"block\"", "expected a place in the water, or on a face"},
     {GIVEN("source: theory, wave: regular, height: 0.33, period: 2.3, depth: 0.5", ""), "sea: a height of 0.33 m is",
      "they may break on their way"},
     {GIVEN("source: theory, wave: regular, height: 0.1, period: 2.3, depth: 0.5, ramp: 3", ""),

@@ -68,7 +68,7 @@ static void headers_are_exact(void **state)
     expect("reflections.csv",
            "time_s,set,from_s,harmonic,period_s,wavelength_m,incident_m,reflected_m,coefficient,misfit_m,"
            "separation,bound_incident_m,bound_reflected_m\n");
-    expect("absorbers.csv", "time_s,body,offset_m,drift_m\n");
+    expect("absorbers.csv", "time_s,body,offset_m,drift_m,law_m\n");
     expect("energy.csv", "time_s,kinetic_J,potential_J,mass_kg,momentum_x_kg_m_s,"
                          "momentum_y_kg_m_s,momentum_z_kg_m_s,bodies_J,viscosity_J,"
                          "wall_friction_J,pressure_solve_J,contact_J,time_integration_J,"
@@ -110,7 +110,7 @@ static void rows_are_flushed_at_once(void **state)
         waters[0].velocity[j] = sb_vec(1 + j, -1 - j, 0.5);
         waters[1].velocity[j] = sb_vec(nan, nan, nan);
     }
-    const sb_absorber_record offsets[] = {{0, 0.1, -0.25, 0.125}};
+    const sb_absorber_record offsets[] = {{0, 0.1, -0.25, 0.125, 0.5}};
     const sb_measure_records records = {2,     2,      2,        1, 1,      1, forces, levels, points,
                                         flows, runups, energies, 2, splits, 2, waters, 1,      offsets};
     assert_int_equal(sb_csv_open(folder, &scene, &model, &csv, NULL), SB_OK);
@@ -124,7 +124,7 @@ static void rows_are_flushed_at_once(void **state)
                          "0.2,inlet,,,,\n");
     expect("overtopping.csv", "time_s,plane,volume_m3,flux_m3_s\n0.1,quay,12.5,3\n");
     expect("runup.csv", "time_s,line,x_m,y_m,z_m,front_m,apart_m\n0.1,beach,1,2,3,4,0.5\n");
-    expect("absorbers.csv", "time_s,body,offset_m,drift_m\n0.1,reactor1,-0.25,0.125\n");
+    expect("absorbers.csv", "time_s,body,offset_m,drift_m,law_m\n0.1,reactor1,-0.25,0.125,0.5\n");
     text = text_of("reflections.csv");
     assert_string_equal(strchr(text, '\n') + 1,
                         "10,array,5,2,0.5,3,0.25,0.125,0.5,0.01,0.75,0.5,0.0625\n10,array,5,3,0.2,1,,,,,0,,\n");

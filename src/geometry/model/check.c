@@ -256,6 +256,7 @@ static sb_status check_alone(const sb_scene *scene, const sb_model_space *space,
     if (status == SB_OK) status = sb_model_warn_ground(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_open(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_gauges(scene, space, model, error);
+    if (status == SB_OK) status = sb_model_warn_probes(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_reflections(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_depths(scene, space, model, error);
     if (status == SB_OK) status = sb_model_warn_records(scene, space, model, error);

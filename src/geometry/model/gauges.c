@@ -118,6 +118,29 @@ sb_status sb_model_warn_reflections(const sb_scene *scene, const sb_model_space 
     return status;
 }
 
+/* In spacings: a probe deeper inside of a body is on no face of it. */
+static const double INSIDE = 0.5;
+
+sb_status sb_model_warn_probes(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
+{
+    const double deep = INSIDE * model->spacing;
+    sb_status status = SB_OK;
+    for (size_t i = 0; i < scene->measure.probe_count && status == SB_OK; ++i)
+        for (size_t b = 0; b < space->count && status == SB_OK; ++b) {
+            sb_vec3 at = scene->measure.probes[i].at;
+            if (model->dimensions == 2) at.y = 0;
+            if (!space->solid[b] || model->bodies[b].mesh.triangle_count == 0) continue;
+            if (!sb_solid_contains(space->solid[b], at) ||
+                sb_solid_distance(space->solid[b], at, deep, NULL, NULL) < deep)
+                continue;
+            status = sb_model_warn(model, error,
+                                   "probe \"%s\" is inside of \"%s\", where no water comes: its values stay empty; "
+                                   "expected a place in the water, or on a face",
+                                   scene->measure.probes[i].name, model->bodies[b].name);
+        }
+    return status;
+}
+
 sb_status sb_model_warn_gauges(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     const sb_measure_settings *settings = &scene->measure;

@@ -136,6 +136,8 @@ sb_status sb_model_warn_place(const sb_scene *scene, const sb_model_body *body, 
 
 /* Adds one warning for all gauges over still water that is too shallow for them. Sets model->shallow. */
 sb_status sb_model_warn_gauges(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
+/* Adds a warning for each probe inside of a body. */
+sb_status sb_model_warn_probes(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error);
 sb_status sb_model_warn_reflections(const sb_scene *scene, const sb_model_space *space, sb_model *model,
                                     sb_error *error);
 

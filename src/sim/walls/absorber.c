@@ -182,12 +182,13 @@ sb_absorption sb_sim_absorption(const sb_sim *sim, size_t body)
     if (!a || a->plate > 0) return (sb_absorption){0};
     if (a->plates == 0)
         return (sb_absorption){.absorbs = true,
+                               .law = sim->walls.moving[m].law->there,
                                .offset = a->state.offset,
                                .farthest = a->farthest,
                                .limited = a->limited,
                                .drift = a->drift,
                                .drift_most = a->drift_most};
-    sb_absorption all = {.absorbs = true, .plates = a->plates};
+    sb_absorption all = {.absorbs = true, .law = sim->walls.moving[m].law->there, .plates = a->plates};
     double least = (double)INFINITY, most = -(double)INFINITY;
     for (size_t k = 0; k < a->plates; k++) {
         const sb_absorber *one = sim->walls.moving[m + k].absorber;
