@@ -202,19 +202,15 @@ static int add_outlines(sb_facet_builder *b, const sb_outlines *outlines, size_t
     return status;
 }
 
-/* Finds where a body is farthest from its place at rest, m from there. */
-static sb_status find_away(const sb_facet_builder *b, size_t body, sb_vec3 *away, sb_error *error)
+/* Finds the largest displacement of a wave maker's law, m. */
+static sb_status find_farthest(const sb_scene *scene, const sb_wavemaker_use *use, double *farthest, sb_error *error)
 {
-    *away = (sb_vec3){0};
-    if (b->model->bodies[body].wavemaker < 0) return SB_OK;
-    const sb_wavemaker_use *use = &b->scene->wavemakers[b->model->bodies[body].wavemaker];
     sb_paddle paddle;
     const sb_status status = sb_paddle_create(&use->law, &paddle, error);
     if (status != SB_OK) return status;
-    const sb_paddle_way way = sb_paddle_way_of(&paddle, b->scene->duration);
+    const sb_paddle_way way = sb_paddle_way_of(&paddle, scene->duration);
     sb_paddle_destroy(&paddle);
-    const double farthest = way.most > -way.least ? way.most : way.least;
-    *away = sb_scale(use->direction, (1 - b->model->bodies[body].held) * farthest);
+    *farthest = way.most > -way.least ? way.most : way.least;
     return SB_OK;
 }
 
@@ -234,6 +230,27 @@ static int add_sides(sb_facet_builder *b, size_t body)
     return 0;
 }
 
+/* Adds the facets of all bodies and sides. The bodies of one wave maker follow each other. */
+static sb_status add_all(sb_facet_builder *b, sb_error *error)
+{
+    const sb_model *model = b->model;
+    int maker = -1;
+    double farthest = 0;
+    for (size_t k = 0; k < model->body_count; k++) {
+        const sb_model_body *body = &model->bodies[k];
+        const sb_wavemaker_use *use = body->wavemaker < 0 ? NULL : &b->scene->wavemakers[body->wavemaker];
+        if (use && body->wavemaker != maker) {
+            const sb_status status = find_farthest(b->scene, use, &farthest, error);
+            if (status != SB_OK) return status;
+            maker = body->wavemaker;
+        }
+        const sb_vec3 away = use ? sb_scale(use->direction, (1 - body->held) * farthest) : (sb_vec3){0};
+        if ((sb_facets_has_mesh(b, k) ? add_outlines(b, &b->of_body[k], k, away) : add_sides(b, k)) != 0)
+            return sb_fail_memory(error, "facets of walls");
+    }
+    return SB_OK;
+}
+
 sb_status sb_model_facets(const sb_scene *scene, const sb_model_space *space, sb_model *model, sb_error *error)
 {
     sb_facet_builder b = {
@@ -241,17 +258,10 @@ sb_status sb_model_facets(const sb_scene *scene, const sb_model_space *space, sb
     int status = sb_facets_find_plates(&b);
     if (status == 0) status = sb_facets_find_outlines(&b);
     if (status == 0) status = sb_facets_cut_sides(&b);
-    sb_status found = SB_OK;
-    for (size_t k = 0; k < model->body_count && status == 0 && found == SB_OK; k++) {
-        sb_vec3 away;
-        found = find_away(&b, k, &away, error);
-        if (found == SB_OK)
-            status = sb_facets_has_mesh(&b, k) ? add_outlines(&b, &b.of_body[k], k, away) : add_sides(&b, k);
-    }
+    const sb_status added = status == 0 ? add_all(&b, error) : sb_fail_memory(error, "facets of walls");
     for (size_t k = 0; k < model->body_count && b.of_body; k++) sb_outlines_free(&b.of_body[k]);
     for (int side = 0; side < SB_SIDES; side++) sb_outlines_free(&b.of_side[side]);
     sb_free(b.of_body);
     sb_free(b.plate);
-    if (found != SB_OK) return found;
-    return status == 0 ? SB_OK : sb_fail_memory(error, "facets of walls");
+    return added;
 }

@@ -300,6 +300,8 @@ static void walls_beyond_the_domain_hide_nothing(void **state)
     sb_model_body *body = &s.tank.model.bodies[hill];
     body->count = s.tank.model.wall_count - body->begin;
     s.tank.model.body_count = hill + 1;
+    for (size_t f = 0; f < s.tank.model.facets.count; f++)
+        if (s.tank.model.facets.facets[f].body > hill) s.tank.model.facets.facets[f].body = (uint32_t)hill;
     s.sim = tank_sim(&s.tank);
     assert_non_null(s.sim);
     assert_int_equal(tank_prepare(s.sim, 0.01), 0);
