@@ -1,4 +1,4 @@
-/* A gate that is lifted and stays in the water: its lower face, which stood on the floor, bears load, and no water
+/* A gate that is lifted and stays in the water: its lower face, which stood on the floor, has a load, and no water
    enters the gate. */
 #include "../../check.h"
 #include "sim/tank.h"
@@ -31,7 +31,7 @@ static double lift_of(sb_sim *sim, size_t gate)
     return (sb_sim_impulse(sim, gate)->pressure.z - before) / (sb_sim_report(sim)->time - from);
 }
 
-static void a_lifted_gate_bears_the_water_below_it(void **state)
+static void a_lifted_gate_has_the_load_of_the_water_below_it(void **state)
 {
     (void)state;
     const char *path = SB_BINARY_DIR "/gate.yaml";
@@ -70,7 +70,7 @@ static void a_lifted_gate_bears_the_water_below_it(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_lifted_gate_bears_the_water_below_it),
+        cmocka_unit_test(a_lifted_gate_has_the_load_of_the_water_below_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
