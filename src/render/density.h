@@ -29,7 +29,7 @@ typedef struct sb_density {
 
 /* Distributes the particles to nodes that are 1.5 particle spacings apart (more for very wide frames) and smooths the
    result once. Particles that are farther away than 1e4 km or not finite are left out. The frame's spacing must be
-   above 0. ground may be NULL: with it, the density at a wall, and at a side of a scene of three dimensions, is that of
+   above 0. ground may be NULL: with it, the density at a wall, and at a side, is that of
    the water in front of it, so that its gradient is along the wall. The result is the same for any number of threads.
  */
 sb_status sb_density_build(sb_density *density, const sb_frame *frame, const sb_ground *ground, int threads,
