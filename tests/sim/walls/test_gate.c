@@ -1,6 +1,7 @@
 /* A gate that is lifted and stays in the water: its lower face, which stood on the floor, has a load, and no water
    enters the gate. */
 #include "../../check.h"
+#include "scene/scene_files.h"
 #include "sim/tank.h"
 
 #include <math.h>
@@ -34,16 +35,11 @@ static double lift_of(sb_sim *sim, size_t gate)
 static void a_lifted_gate_has_the_load_of_the_water_below_it(void **state)
 {
     (void)state;
-    const char *path = SB_BINARY_DIR "/gate.yaml";
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    assert_int_equal(fclose(file), 0);
     sb_error error = {0};
     sb_scene scene;
     sb_model model = {0};
     sb_sim *sim;
-    if (sb_scene_read(path, NULL, NULL, 0, &scene, &error) != SB_OK) fail_msg("%s", error.text);
+    scene_must_read(text, NULL, NULL, 0, &scene);
     if (sb_model_build(&scene, &model, &error) != SB_OK) fail_msg("%s", error.text);
     if (sb_sim_create(&scene, &model, NULL, &sim, &error) != SB_OK) fail_msg("%s", error.text);
     if (sb_sim_settle(sim, &error) != SB_OK) fail_msg("%s", error.text);
