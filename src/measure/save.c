@@ -115,7 +115,7 @@ static void take_probes(sb_measure *measure, sb_archive_in *in)
 
 static void forget_latest(sb_measure *measure)
 {
-    for (int k = 0; k < LISTS; k++) measure->lists[k].count = 0;
+    sb_records_clear(measure);
     measure->latest = (sb_measure_records){0};
 }
 

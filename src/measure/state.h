@@ -44,7 +44,7 @@ typedef struct split_state {
     double *window, *whole;
 } split_state;
 
-/* See record.c. */
+/* See plane_records.c. */
 typedef struct sb_plane_record sb_plane_record;
 
 enum { MAX_SKIPPED = 8 };
@@ -83,14 +83,27 @@ void sb_wall_probes_step(sb_measure *measure, const sb_sim *sim, double taken);
 /* Returns the mean pressure of the interval that ends at this fraction of the last step, and begins the next one. */
 double sb_wall_probe_mean(sb_measure *measure, size_t probe, double fraction);
 
-/* record.c: the points of the planes that are recorded. */
-sb_status sb_records_create(sb_measure *measure, sb_error *error);
-void sb_records_destroy(sb_measure *measure);
+/* records.c: the lists of records. Those of the creation: */
+sb_status sb_records_start(sb_measure *measure, const sb_measure_view *view, sb_error *error);
+/* Those of an interval that ends at `time`, at this fraction of the last step. */
+sb_status sb_records_interval(sb_measure *measure, const sb_measure_view *view, double time, double fraction,
+                              sb_error *error);
+/* Those that only the end of a step has. */
+sb_status sb_records_step(sb_measure *measure, const sb_measure_view *view, sb_error *error);
+void sb_records_clear(sb_measure *measure);
+/* Makes the lists those that sb_measure_latest returns. */
+void sb_records_publish(sb_measure *measure);
+void sb_records_free(sb_measure *measure);
+size_t sb_records_bytes(const sb_measure *measure);
+
+/* plane_records.c: the points of the planes that are recorded. */
+sb_status sb_plane_records_create(sb_measure *measure, sb_error *error);
+void sb_plane_records_destroy(sb_measure *measure);
 /* The number of points that a plane records in this row; rows are multiples of the interval. */
-size_t sb_records_points(const sb_measure *measure, size_t plane, uint64_t row);
+size_t sb_plane_records_points(const sb_measure *measure, size_t plane, uint64_t row);
 /* Reads one of these points. */
-sb_status sb_records_read(const sb_measure *measure, const sb_measure_view *view, size_t plane, size_t index,
-                          double time, sb_water_record *row, sb_error *error);
+sb_status sb_plane_records_read(const sb_measure *measure, const sb_measure_view *view, size_t plane, size_t index,
+                                double time, sb_water_record *row, sb_error *error);
 
 /* reflections.c: the states of all sets. */
 sb_status sb_reflections_create(sb_measure *measure, sb_error *error);

@@ -45,7 +45,7 @@ static void destroy(sb_plane_record *record)
     sb_free(record);
 }
 
-sb_status sb_records_create(sb_measure *measure, sb_error *error)
+sb_status sb_plane_records_create(sb_measure *measure, sb_error *error)
 {
     const sb_measure_settings *settings = &measure->scene->measure;
     bool any = false;
@@ -65,13 +65,13 @@ sb_status sb_records_create(sb_measure *measure, sb_error *error)
     return SB_OK;
 }
 
-void sb_records_destroy(sb_measure *measure)
+void sb_plane_records_destroy(sb_measure *measure)
 {
     for (size_t i = 0; measure->records && i < measure->scene->measure.plane_count; i++) destroy(measure->records[i]);
     sb_free(measure->records);
 }
 
-size_t sb_records_points(const sb_measure *measure, size_t plane, uint64_t row)
+size_t sb_plane_records_points(const sb_measure *measure, size_t plane, uint64_t row)
 {
     const sb_plane_record *record = measure->records ? measure->records[plane] : NULL;
     return record && row % record->every == 0 ? record->count : 0;
@@ -111,8 +111,8 @@ static sb_vec3 layer_velocity(const sb_measure_view *view, const point *p, doubl
     return velocity_of(&s, reach);
 }
 
-sb_status sb_records_read(const sb_measure *measure, const sb_measure_view *view, size_t plane, size_t index,
-                          double time, sb_water_record *row, sb_error *error)
+sb_status sb_plane_records_read(const sb_measure *measure, const sb_measure_view *view, size_t plane, size_t index,
+                                double time, sb_water_record *row, sb_error *error)
 {
     const point *p = &measure->records[plane]->points[index];
     const double spacing = view->scene->resolution, range = 2 * STRETCH * spacing;
