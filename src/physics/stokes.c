@@ -1,6 +1,7 @@
 #include "physics/stokes.h"
 
 #include "physics/breaking.h"
+#include "physics/dispersion.h"
 #include "physics/regular_wave.h"
 
 #include <math.h>
@@ -71,12 +72,10 @@ static sb_status check(const sb_stokes *wave, sb_error *error)
     return SB_OK;
 }
 
-sb_status sb_stokes_create(int order, double height, double length, double depth, double gravity, sb_stokes *wave,
-                           sb_error *error)
+/* The wave, whether the theory is valid for it or not. */
+static sb_stokes evaluate(int order, double height, double length, double depth, double gravity)
 {
     sb_stokes made = {.order = order, .height = height, .length = length, .depth = depth, .number = 2 * M_PI / length};
-    sb_status status = check(&made, error);
-    if (status != SB_OK) return status;
     const double k = made.number, kd = fmin(k * depth, DEEP), e = 0.5 * k * height;
     const table t = coefficients(kd);
     /* Powers of e beyond the order are left out. */
@@ -91,8 +90,30 @@ sb_status sb_stokes_create(int order, double height, double length, double depth
         made.velocity[j] = t.c0 * sqrt(gravity / k) * (j + 1) * potential[j] * cosh((j + 1) * kd);
     }
     made.celerity = sqrt(gravity / k) * (t.c0 + (order > 2 ? e * e * t.c2 : 0) + e4 * t.c4);
-    *wave = made;
-    return SB_OK;
+    return made;
+}
+
+sb_status sb_stokes_create(int order, double height, double length, double depth, double gravity, sb_stokes *wave,
+                           sb_error *error)
+{
+    const sb_stokes made = evaluate(order, height, length, depth, gravity);
+    const sb_status status = check(&made, error);
+    if (status == SB_OK) *wave = made;
+    return status;
+}
+
+sb_status sb_stokes_of_period(int order, double height, double period, double depth, double gravity, sb_stokes *wave,
+                              sb_error *error)
+{
+    enum { HALVINGS = 60 };
+    /* Waves are as long as the linear wave of the period, or longer, by a fifth at the limits of height and length. */
+    double low = 2 * M_PI / sb_wave_number(period, depth, gravity), high = 1.5 * low;
+    for (int i = 0; i < HALVINGS && order > 2; i++) {
+        const double middle = 0.5 * (low + high);
+        const sb_stokes tried = evaluate(order, height, middle, depth, gravity);
+        *(tried.celerity * period > middle ? &low : &high) = middle;
+    }
+    return sb_stokes_create(order, height, low, depth, gravity, wave, error);
 }
 
 double sb_stokes_elevation(const sb_stokes *wave, double ahead)

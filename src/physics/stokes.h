@@ -25,6 +25,10 @@ typedef struct sb_stokes {
 sb_status sb_stokes_create(int order, double height, double length, double depth, double gravity, sb_stokes *wave,
                            sb_error *error);
 
+/* Finds the wave of a period: its length is the period times its celerity. All values > 0. Errors as above. */
+sb_status sb_stokes_of_period(int order, double height, double period, double depth, double gravity, sb_stokes *wave,
+                              sb_error *error);
+
 /* Elevation in m at a distance ahead of a crest along the direction of travel. */
 double sb_stokes_elevation(const sb_stokes *wave, double ahead);
 /* Velocities in m/s along the direction of travel and upward, z above the bed. Above the surface they are those of the

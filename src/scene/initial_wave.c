@@ -137,10 +137,16 @@ sb_status sb_initial_wave_finish(sb_reader *reader, const sb_yaml *map, sb_initi
     if (wave->kind == SB_INITIAL_REGULAR) {
         if (wave->direction == 0)
             return sb_reader_fail(reader, map, "direction", "0 is not a direction, expected 1 or -1");
-        if (sb_stokes_create(orders[wave->order], wave->height, wave->wavelength, wave->depth,
-                             reader->scene->fluid.gravity, &wave->stokes, &why) != SB_OK)
-            return sb_reader_fail(reader, map, NULL, "%s", why.text);
-        return check_length(reader, map, "wavelength", wave->wavelength);
+        const bool timed = wave->period > 0;
+        const double gravity = reader->scene->fluid.gravity;
+        const int order = orders[wave->order];
+        const sb_status status =
+            timed ? sb_stokes_of_period(order, wave->height, wave->period, wave->depth, gravity, &wave->stokes, &why)
+                  : sb_stokes_create(order, wave->height, wave->wavelength, wave->depth, gravity, &wave->stokes, &why);
+        if (status != SB_OK) return sb_reader_fail(reader, map, timed ? "period" : NULL, "%s", why.text);
+        wave->wavelength = wave->stokes.length;
+        wave->period = 0; /* the wavelength says it all: what is written and read again is the same */
+        return check_length(reader, map, timed ? "period" : "wavelength", wave->wavelength);
     }
     /* for the wave of offshore, see table_offshore.c */
     if (wave->kind == SB_INITIAL_STANDING && wave == &reader->scene->wave)

@@ -66,8 +66,10 @@ static const char *const order_names[] = {"linear", "second-order", "fifth-order
 enum {
     SOLITARY = 1 << SB_INITIAL_SOLITARY,
     STANDING = 1 << SB_INITIAL_STANDING,
-    REGULAR = 1 << SB_INITIAL_REGULAR,
-    COMPONENTS = 1 << SB_INITIAL_COMPONENTS
+    REGULAR_OF_LENGTH = 1 << SB_INITIAL_REGULAR,
+    COMPONENTS = 1 << SB_INITIAL_COMPONENTS,
+    REGULAR_OF_PERIOD = COMPONENTS << 1,
+    REGULAR = REGULAR_OF_LENGTH | REGULAR_OF_PERIOD
 };
 
 /* clang-format off */
@@ -89,8 +91,9 @@ static const sb_table initial_component_table = {SB_KEY_ROWS(component_keys), .s
 
 static unsigned wave_variant(const void *item, const sb_yaml *map)
 {
-    (void)map;
-    return 1u << ((const sb_initial_wave *)item)->kind;
+    const sb_initial_wave_kind kind = ((const sb_initial_wave *)item)->kind;
+    if (kind == SB_INITIAL_REGULAR && map && sb_yaml_child(map, "period")) return REGULAR_OF_PERIOD;
+    return 1u << kind;
 }
 
 /* clang-format off */
@@ -111,9 +114,13 @@ static const sb_key wave_keys[] = {
      .only = "a wave", .doc = "x of a crest; of `components`, where their phases are given."},
     {.name = "wavelength", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, wavelength),
      .unit = "m", .min = 0, .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
-     .applies = STANDING | REGULAR, .only = "kind standing or regular",
+     .applies = STANDING | REGULAR_OF_LENGTH, .only = "kind standing, or kind regular without period",
      .doc = "Wavelength: of a standing wave at least two particle spacings, of regular waves at least four, and one that "
             "fits a domain which is periodic in x a whole number of times."},
+    {.name = "period", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_initial_wave, period), .unit = "s", SB_KEY_POSITIVE | SB_KEY_REQUIRED,
+     .applies = REGULAR_OF_PERIOD, .only = "kind regular",
+     .doc = "Period, instead of the wavelength, which follows from it, the height and the depth by the theory of `order`. "
+            "The wave goes through water whose mean velocity at a fixed place below its troughs is 0."},
     {.name = "direction", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_initial_wave, direction), .min = -1,
      .max = 1, .fallback = "1", .applies = SOLITARY | REGULAR, .only = "kind solitary or regular",
      .doc = "Direction of travel: 1 towards +x, -1 towards -x; 0 is an error."},

@@ -52,6 +52,7 @@ typedef struct sb_initial_wave {
     double depth;              /* m, still-water depth of the wave theory */
     double position;           /* m, x of the crest */
     double wavelength;         /* m, standing and regular waves only */
+    double period;             /* s, of regular waves that are given by it; `wavelength` has what follows from it */
     int direction;             /* +1 towards +x, -1 towards -x */
     sb_solitary_theory theory; /* solitary wave only */
     sb_initial_order order;    /* regular waves only */

@@ -2,6 +2,7 @@
    of an independent program, and the limits of the theory. */
 #include "../check.h"
 #include "physics/regular_wave.h"
+#include "physics/steady_wave.h"
 #include "physics/stokes.h"
 
 #include <stdio.h>
@@ -101,12 +102,43 @@ static void limits(void **state)
     }
 }
 
+/* A wave of a period has the length that gives this period, and that of the steady wave without expansion. */
+static void waves_of_a_period(void **state)
+{
+    (void)state;
+    static const double waves[][3] = {{0.12, 1.2, 0.5}, {0.02, 0.6, 5}, {0.1, 3, 0.8}, {1, 8, 10}}; /* H, T, d */
+    for (size_t i = 0; i < sizeof waves / sizeof *waves; i++) {
+        const double height = waves[i][0], depth = waves[i][2];
+        sb_steady_wave steady;
+        sb_stokes wave, again;
+        assert_true(sb_steady_wave_of(height, waves[i][1], depth, g, &steady));
+        /* of an observer for whom the water below the troughs stands on average */
+        const double period = steady.length / (steady.speed - steady.current);
+        assert_int_equal(sb_stokes_of_period(5, height, period, depth, g, &wave, NULL), SB_OK);
+        printf("H %g m, T %.4g s, d %g m: length %.5g m, steady wave %.5g m\n", height, period, depth, wave.length,
+               steady.length);
+        assert_near(wave.length, steady.length, 1e-3 * steady.length);
+        assert_near(wave.length, period * wave.celerity, 1e-12 * wave.length);
+        assert_int_equal(sb_stokes_create(5, height, wave.length, depth, g, &again, NULL), SB_OK);
+        assert_memory_equal(&wave, &again, sizeof wave);
+        assert_int_equal(sb_stokes_of_period(1, height, period, depth, g, &wave, NULL), SB_OK);
+        assert_near(wave.length, period * wave.celerity, 1e-9 * wave.length);
+    }
+    sb_error error = {0};
+    sb_stokes wave;
+    assert_int_equal(sb_stokes_of_period(5, 0.3, 1, 1, g, &wave, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "breaks"));
+    assert_int_equal(sb_stokes_of_period(5, 0.3, 30, 1, g, &wave, &error), SB_BAD_INPUT);
+    assert_non_null(strstr(error.text, "too long"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(errors_fall_with_the_order),
         cmocka_unit_test(the_wave_of_fentons_program),
         cmocka_unit_test(limits),
+        cmocka_unit_test(waves_of_a_period),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -280,6 +280,23 @@ static void test_given_water(void **state)
     remove(file);
 }
 
+/* The written scene has the length that follows from the period. */
+static void test_wave_of_a_period(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "dimensions: 2\nresolution: 0.05\nduration: 1\ndomain: {min: [0, 0], max: [4, 1]}\nwater: {level: 0.5, "
+        "seed: [1, 0.2], wave: {kind: regular, height: 0.12, depth: 0.5, period: 1.2}}\n";
+    char path[256];
+    sb_scene scene;
+    scene_must_read(text, NULL, NULL, 0, &scene);
+    assert_near(scene.wave.wavelength, 1.2 * scene.wave.stokes.celerity, 1e-12);
+    sb_scene_free(&scene);
+    scene_file(text, path);
+    round_trip(path);
+    remove(path);
+}
+
 static void test_flat(void **state)
 {
     (void)state;
@@ -321,6 +338,7 @@ int main(void)
         cmocka_unit_test(test_scenes_of_the_project),
         cmocka_unit_test(test_everything),
         cmocka_unit_test(test_given_water),
+        cmocka_unit_test(test_wave_of_a_period),
         cmocka_unit_test(test_flat),
         cmocka_unit_test(test_refused),
     };
