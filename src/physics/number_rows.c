@@ -1,56 +1,22 @@
 #include "physics/number_rows.h"
 
 #include "base/columns.h"
-#include "base/file.h"
 #include "base/memory.h"
+#include "base/rows.h"
 
-#include <math.h>
-#include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
 
-enum { FILE_LIMIT = 64 << 20, NUMBER_LIMIT = 1000000000, COLUMNS_MAX = 8 };
+enum { COLUMNS_MAX = 8 };
 
 typedef struct reading {
-    const char *path, *expected;
+    const char *expected;
     size_t columns;
     bool begun; /* a row or a line of names was read */
-    size_t rows;
+    size_t count;
     sb_number_row *take;
     void *context;
 } reading;
-
-static size_t cell_length(const char *at)
-{
-    return strcspn(at, " \t\r,;");
-}
-
-/* Reads a number at *at and moves *at behind it and behind its separator. False, and *at as it was, if there is none.
- */
-static bool read_number(char **at, double *value)
-{
-    const size_t length = cell_length(*at);
-    char *end = *at + length, *stop;
-    if (length == 0 || strspn(*at, "+-.0123456789eE") != length) return false;
-    *value = strtod(*at, &stop);
-    if (stop != end || !(fabs(*value) <= NUMBER_LIMIT)) return false;
-    *at = end + strspn(end, " \t\r");
-    if (**at == ',' || **at == ';') *at += 1 + strspn(*at + 1, " \t\r");
-    return true;
-}
-
-/* found: numbers before `at`, where there is no further one or one too many. */
-static sb_status refuse_line(const reading *r, size_t number, size_t found, const char *at, sb_error *error)
-{
-    const int shown = (int)cell_length(at) < 40 ? (int)cell_length(at) : 40;
-    if (found == r->columns)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: \"%.*s\" is one value too many, expected %zu numbers: \"%s\"",
-                       r->path, number, shown, at, r->columns, r->expected);
-    if (shown > 0)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: \"%.*s\" is no number below 1e9, expected %zu numbers: \"%s\"",
-                       r->path, number, shown, at, r->columns, r->expected);
-    return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: value %zu is missing, expected %zu numbers: \"%s\"", r->path,
-                   number, found + 1, r->columns, r->expected);
-}
 
 /* Fills units with the unit of each column, which `expected` has in parentheses. */
 static void find_units(const char *expected, char units[COLUMNS_MAX + 1])
@@ -61,86 +27,58 @@ static void find_units(const char *expected, char units[COLUMNS_MAX + 1])
     units[count] = '\0';
 }
 
-static sb_status check_header(const reading *r, size_t number, const char *line, sb_error *error)
+static sb_status check_header(const reading *r, const sb_rows *rows, const char *line, sb_error *error)
 {
     char units[COLUMNS_MAX + 1];
     const char *unit = sb_columns_unit(line, strlen(line));
     if (unit)
-        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: its header names the unit %s, expected \"%s\"", r->path,
-                       number, unit, r->expected);
+        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: its header names the unit %s, expected \"%s\"", rows->path,
+                       rows->line, unit, r->expected);
     find_units(r->expected, units);
     const size_t column = sb_columns_misplaced(line, strlen(line), units);
     const size_t named = sb_columns_misnamed(line, strlen(line), r->expected);
     if (column == 0 && named == 0) return SB_OK;
-    return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: column %zu has another %s in the header, expected \"%s\"", r->path,
-                   number, column > 0 ? column : named, column > 0 ? "unit" : "name", r->expected);
+    return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: column %zu has another %s in the header, expected \"%s\"",
+                   rows->path, rows->line, column > 0 ? column : named, column > 0 ? "unit" : "name", r->expected);
 }
 
-/* Reads one line without its newline. A comment or an empty line is no row. */
-static sb_status read_line(reading *r, char *line, size_t number, sb_error *error)
+/* Reads a line. A comment is no row. */
+static sb_status read_line(reading *r, sb_rows *rows, char *line, sb_error *error)
 {
     double values[COLUMNS_MAX];
-    size_t found = 0;
-    char *at = line + strspn(line, " \t\r");
-    at[strcspn(at, "#")] = '\0';
-    if (!*at) return SB_OK;
+    line[strcspn(line, "#")] = '\0';
+    if (!*line) return SB_OK;
     const bool first = !r->begun;
     r->begun = true;
-    if (first && sb_columns_header(at, strlen(at))) return check_header(r, number, at, error);
-    while (found < r->columns && read_number(&at, &values[found])) found++;
-    if (found < r->columns || *at) return refuse_line(r, number, found, at, error);
-    r->rows++;
-    return r->take(r->context, number, values, error);
-}
-
-/* Finds the first byte that no text has, and its line. */
-static bool find_control(const char *text, size_t length, size_t *line, unsigned *byte)
-{
-    *line = 1;
-    for (size_t i = 0; i < length; i++) {
-        *byte = (unsigned char)text[i];
-        if (*byte == '\n') ++*line;
-        if (*byte == 0x7f || (*byte < ' ' && !(*byte >= '\t' && *byte <= '\r'))) return true;
+    if (first && sb_columns_header(line, strlen(line))) return check_header(r, rows, line, error);
+    sb_status status = sb_rows_cut(rows, line, error);
+    if (rows->cell_count == r->columns + 1 && !*rows->cells[r->columns])
+        rows->cell_count--; /* a separator at the end */
+    if (status == SB_OK && rows->cell_count != r->columns)
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: has %zu value%s, expected %zu: \"%s\"", rows->path,
+                         rows->line, rows->cell_count, rows->cell_count == 1 ? "" : "s", r->columns, r->expected);
+    for (size_t i = 0; status == SB_OK && i < r->columns; i++) {
+        char what[200];
+        snprintf(what, sizeof what, "value %zu of \"%s\"", i + 1, r->expected);
+        status = sb_rows_number(rows, i, what, &values[i], error);
     }
-    return false;
-}
-
-static sb_status read_text(const char *path, char **text, sb_error *error)
-{
-    char *read = NULL;
-    size_t length, line;
-    unsigned byte;
-    sb_status status = sb_text_read(path, FILE_LIMIT, &read, &length, error);
-    if (status == SB_OK && find_control(read, length, &line, &byte))
-        status =
-            byte == 0
-                ? sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: contains a zero byte, expected a text table", path, line)
-                : sb_fail(error, SB_BAD_INPUT,
-                          "%.500s:%zu: contains the control character 0x%02x, expected a text table", path, line, byte);
-    if (status == SB_OK)
-        *text = read;
-    else
-        sb_free(read);
-    return status;
+    if (status != SB_OK) return status;
+    r->count++;
+    return r->take(r->context, rows->line, values, error);
 }
 
 sb_status sb_number_rows_visit(const char *path, size_t columns, size_t least, const char *expected,
                                sb_number_row *take, void *context, sb_error *error)
 {
-    char *text = NULL;
-    size_t number = 1;
-    reading r = {.path = path, .expected = expected, .columns = columns, .take = take, .context = context};
-    sb_status status = read_text(path, &text, error);
-    for (char *line = text; status == SB_OK && line; number++) {
-        char *newline = strchr(line, '\n');
-        if (newline) *newline = '\0';
-        status = read_line(&r, line, number, error);
-        line = newline ? newline + 1 : NULL;
-    }
-    sb_free(text);
-    if (status != SB_OK || r.rows >= least) return status;
-    return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: %zu row%s, expected at least %zu: \"%s\"", path, number - 1,
-                   r.rows, r.rows == 1 ? "" : "s", least, expected);
+    sb_rows rows;
+    reading r = {.expected = expected, .columns = columns, .take = take, .context = context};
+    sb_status status = sb_rows_open(path, &rows, error);
+    for (char *line; status == SB_OK && (line = sb_rows_next(&rows));) status = read_line(&r, &rows, line, error);
+    if (status == SB_OK && r.count < least)
+        status = sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: %zu row%s, expected at least %zu: \"%s\"", path, rows.line,
+                         r.count, r.count == 1 ? "" : "s", least, expected);
+    sb_rows_close(&rows);
+    return status;
 }
 
 typedef struct list {

@@ -4,7 +4,7 @@
 #include "scene/record_columns.h"
 #include "sea/line_check.h"
 #include "sea/parts.h"
-#include "sea/rows.h"
+#include "base/rows.h"
 
 #include <math.h>
 #include <stdio.h>

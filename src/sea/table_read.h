@@ -4,7 +4,7 @@
 
 #include "scene/scene.h"
 #include "sea/line.h"
-#include "sea/rows.h"
+#include "base/rows.h"
 
 /* Channels of a table: surface above its datum in m, velocities in m/s. */
 enum { SB_TABLE_ETA, SB_TABLE_U, SB_TABLE_V, SB_TABLE_CHANNELS };

@@ -1,6 +1,6 @@
-/* Lines of a text table, and the numbers in them. Private to src/sea. */
-#ifndef SB_SEA_ROWS_H
-#define SB_SEA_ROWS_H
+/* Lines of a text table, and the numbers in them. */
+#ifndef SB_BASE_ROWS_H
+#define SB_BASE_ROWS_H
 
 #include "base/status.h"
 
@@ -17,7 +17,8 @@ typedef struct sb_rows {
     size_t cell_count; /* of the current line; empty cells count where commas separate */
 } sb_rows;
 
-/* Reads the file, at most 1 GB. SB_BAD_INPUT names it. */
+/* Reads the file, at most 1 GB. SB_BAD_INPUT names it, and the line of a zero byte or another control character, which
+   only a file that is no text table has. */
 sb_status sb_rows_open(const char *path, sb_rows *rows, sb_error *error);
 void sb_rows_close(sb_rows *rows);
 

@@ -1,4 +1,4 @@
-#include "sea/rows.h"
+#include "base/rows.h"
 
 #include "base/file.h"
 #include "base/memory.h"
@@ -12,18 +12,31 @@
 static const size_t FILE_LIMIT = (size_t)1 << 30;
 static const double NUMBER_LIMIT = 1e9;
 
+/* Refuses the first byte that no text has, with its line. */
+static sb_status check_text(const char *path, const char *text, size_t length, sb_error *error)
+{
+    size_t line = 1;
+    for (size_t i = 0; i < length; i++) {
+        const unsigned byte = (unsigned char)text[i];
+        if (byte == '\n') line++;
+        if (byte != 0x7f && (byte >= ' ' || (byte >= '\t' && byte <= '\r'))) continue;
+        if (byte == 0)
+            return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: contains a zero byte, expected a text table", path, line);
+        return sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: contains the control character 0x%02x, expected a text table",
+                       path, line, byte);
+    }
+    return SB_OK;
+}
+
 sb_status sb_rows_open(const char *path, sb_rows *rows, sb_error *error)
 {
     size_t length;
     *rows = (sb_rows){.path = path};
     sb_status status = sb_text_read(path, FILE_LIMIT, &rows->text, &length, error);
-    if (status != SB_OK) return status;
-    if (strlen(rows->text) != length) {
-        sb_rows_close(rows);
-        return sb_fail(error, SB_BAD_INPUT, "%.500s: contains a zero byte, expected plain text", path);
-    }
+    if (status == SB_OK) status = check_text(path, rows->text, length, error);
+    if (status != SB_OK) sb_rows_close(rows);
     rows->next = rows->text;
-    return SB_OK;
+    return status;
 }
 
 void sb_rows_close(sb_rows *rows)
