@@ -38,14 +38,20 @@ static void warn_of_window(const sb_scene *scene, const sb_reflection_set *set, 
     visit(context, text);
 }
 
-/* Length of regular waves in a closed flume, m; by cnoidal theory where no steady wave is found; NaN: not known. */
-static double length_of(const sb_wavemaker_parameters *law, double depth)
+/* Length of regular waves in a closed flume, m, and its relative error. */
+typedef struct own_length {
+    double length, error; /* length NaN: not known */
+} own_length;
+
+/* Cnoidal theory has waves that are too long and high for the series of the steady wave. */
+static own_length length_of(const sb_wavemaker_parameters *law, double depth)
 {
     sb_steady_wave wave;
     sb_cnoidal cnoidal;
-    if (sb_steady_wave_of(law->height, law->period, depth, law->gravity, &wave)) return wave.length;
+    if (sb_steady_wave_of(law->height, law->period, depth, law->gravity, &wave))
+        return (own_length){wave.length, 0.005};
     const bool found = sb_cnoidal_of_period(law->height, law->period, depth, law->gravity, &cnoidal, NULL) == SB_OK;
-    return found ? cnoidal.length : (double)NAN;
+    return (own_length){found ? cnoidal.length : (double)NAN, 0.04};
 }
 
 /* Waves of a wave maker that are longer or shorter than the split takes them for seem to be reflected. */
@@ -57,14 +63,15 @@ static void warn_of_length(const sb_scene *scene, const sb_reflection_set *set, 
         const sb_wavemaker_parameters *law = &scene->wavemakers[w].law;
         const double length = 2 * M_PI / sb_reflection_number(scene, set, 1);
         if (strcmp(law->kind->name, "regular") != 0 || fabs(law->period / set->period - 1) > enough) continue;
-        const double own = length_of(law, set->depth);
-        if (!(fabs(length / own - 1) > enough)) continue;
+        const own_length own = length_of(law, set->depth);
+        if (!(fabs(length / own.length - 1) > own.error)) continue;
         snprintf(
             text, sizeof text,
-            "measure.reflections %s: waves of \"%s\" are %.4g m long in a closed flume of this depth, and the split "
+            "measure.reflections %s: waves of \"%s\" are about %.4g m long in a closed flume of this depth, and the "
+            "split "
             "has %.4g m: it takes a part of them for waves that come back, beside those that do; expected wavelength: "
             "%.4g",
-            set->name, scene->wavemakers[w].name, own, length, own);
+            set->name, scene->wavemakers[w].name, own.length, length, own.length);
         visit(context, text);
         return;
     }

@@ -1,6 +1,6 @@
 /* Steady waves by a Fourier series of the stream function [Rienecker and Fenton 1981, J. Fluid Mech. 104]: no expansion
-   in the height, so that Stokes' and cnoidal waves are the same problem. Very long waves need more terms than there
-   are. */
+   in the height, so that Stokes' and cnoidal waves are the same problem. Waves that are both long and high need more
+   terms than there are. */
 #ifndef SB_STEADY_WAVE_H
 #define SB_STEADY_WAVE_H
 
@@ -15,7 +15,8 @@ typedef struct sb_steady_wave {
     double residual; /* largest error of the equations, in units of depth and gravity */
 } sb_steady_wave;
 
-/* False: there is no such wave, or it is too long (kd below about 0.2) or too near to breaking to be found. */
+/* False: there is no such wave, or it is too near to breaking (97 % of the highest) or too long and high to be found:
+   above H/d = 0.57, 0.32, 0.19, 0.09 at kd = 0.17, 0.13, 0.1, 0.07. */
 bool sb_steady_wave_of(double height, double period, double depth, double gravity, sb_steady_wave *wave);
 
 #endif

@@ -71,6 +71,22 @@ static void long_high_waves_are_right_or_none(void **state)
     assert_true(found > 10);
 }
 
+/* High waves in shallow water, by an independent program with 50 terms. */
+static void high_waves_are_those_of_another_program(void **state)
+{
+    (void)state;
+    static const double cases[][3] = {/* H, T, length in m, s; depth 1 m */
+                                      {0.5, 10.097, 36.07},
+                                      {0.35, 13.424, 46.66},
+                                      {0.63, 2.3, 6.766},
+                                      {0.5458, 2.4985, 7.380}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        sb_steady_wave wave;
+        assert_true(sb_steady_wave_of(cases[i][0], cases[i][1], 1, g, &wave));
+        assert_near(wave.length, cases[i][2], 3e-4 * wave.length);
+    }
+}
+
 static void waves_that_break_are_none(void **state)
 {
     (void)state;
@@ -84,8 +100,11 @@ static void waves_that_break_are_none(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(low_waves_are_linear),       cmocka_unit_test(waves_of_middle_depth_are_stokes_waves),
-        cmocka_unit_test(low_long_waves_are_cnoidal), cmocka_unit_test(long_high_waves_are_right_or_none),
+        cmocka_unit_test(low_waves_are_linear),
+        cmocka_unit_test(waves_of_middle_depth_are_stokes_waves),
+        cmocka_unit_test(low_long_waves_are_cnoidal),
+        cmocka_unit_test(long_high_waves_are_right_or_none),
+        cmocka_unit_test(high_waves_are_those_of_another_program),
         cmocka_unit_test(waves_that_break_are_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
