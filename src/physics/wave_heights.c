@@ -12,20 +12,27 @@ static int compare_falling(const void *left, const void *right)
     return (a < b) - (a > b);
 }
 
-/* Fills the heights of the waves between upward crossings that are higher than `least`, and sets the sum of their
-   durations. */
-static size_t find_waves(const double *t, const double *z, size_t n, double level, double least, double *heights,
+/* Share of the spectral height: within it a surface is at its mean level, since gauges scatter. */
+static const double NOISE = 0.02;
+
+/* Fills the heights of the waves between upward crossings, and sets the sum of their durations. Of the crossings
+   between `noise` below the mean level and `noise` above it the last one counts; the first wave may begin at rest. */
+static size_t find_waves(const double *t, const double *z, size_t n, double level, double noise, double *heights,
                          double *lasting)
 {
     size_t count = 0;
-    bool begun = false;
-    double low = 0, high = 0, begin = 0;
+    bool begun = false, crossed = false, was_low = true;
+    double low = 0, high = 0, begin = 0, crossing = 0;
     *lasting = 0;
     for (size_t i = 1; i < n; i++) {
         const double before = z[i - 1] - level, after = z[i] - level;
         if (before < 0 && after >= 0) {
-            const double crossing = t[i - 1] + (t[i] - t[i - 1]) * before / (before - after);
-            if (begun && high - low > least) {
+            crossing = t[i - 1] + (t[i] - t[i - 1]) * before / (before - after);
+            crossed = true;
+        }
+        if (after < -noise) was_low = true;
+        if (after > noise && was_low && crossed) {
+            if (begun) {
                 heights[count++] = high - low;
                 *lasting += crossing - begin;
             }
@@ -33,14 +40,12 @@ static size_t find_waves(const double *t, const double *z, size_t n, double leve
             begin = crossing;
             low = high = after;
         }
+        if (after > noise) was_low = crossed = false;
         low = fmin(low, after);
         high = fmax(high, after);
     }
     return count;
 }
-
-/* Waves lower than this share of the spectral height are noise of the gauge. */
-static const double NOISE = 0.02;
 
 sb_status sb_wave_heights_of(const double *t, const double *z, size_t n, sb_wave_heights *heights, sb_error *error)
 {

@@ -6,8 +6,8 @@
 
 #include <stddef.h>
 
-/* Of waves between upward crossings of the series' mean that are higher than a fiftieth of `spectral`. NaN where there
-   are none. */
+/* Of waves between upward crossings of the series' mean. A crossing counts where the surface comes from a fiftieth of
+   `spectral` below the mean and goes as far above it, so that scatter has no waves. NaN where there are none. */
 typedef struct sb_wave_heights {
     size_t count;
     double level;                      /* m, mean of the series */

@@ -3,6 +3,7 @@
 #include "physics/wave_heights.h"
 
 #include <math.h>
+#include <stdio.h>
 
 enum { MOST = 40000 };
 static double t[MOST], z[MOST];
@@ -31,6 +32,27 @@ static void regular_waves_have_their_height_and_period(void **state)
     assert_near(h.period, period, 1e-4);
     assert_near(h.level, 1.5, 4e-3);
     assert_near(h.spectral, 4 * sqrt(0.005 + 0.0002), 2e-3);
+}
+
+/* Scatter of a gauge that is read far more often than the waves need it: no wave ends at a crossing of the scatter. */
+static void scatter_makes_no_waves(void **state)
+{
+    (void)state;
+    uint32_t seed = 1;
+    for (size_t i = 0; i < 8000; i++) {
+        double scatter = -6;
+        for (int k = 0; k < 12; k++) {
+            seed = 1664525u * seed + 1013904223u;
+            scatter += seed / 4294967296.0;
+        }
+        t[i] = 0.005 * (double)i;
+        z[i] = 0.03 * cos(2 * M_PI * t[i] / 2) + 0.0006 * scatter;
+    }
+    const sb_wave_heights h = heights_of(8000);
+    printf("%zu waves, mean height %.4f m, period %.4f s\n", h.count, h.mean, h.period);
+    assert_int_equal(h.count, 19);
+    assert_near(h.mean, 0.06, 0.004);
+    assert_near(h.period, 2, 0.003);
 }
 
 /* Waves of heights 1, 2, ..., 9, one after the other: the mean is 5, that of the highest three is 8. */
@@ -108,6 +130,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(regular_waves_have_their_height_and_period),
         cmocka_unit_test(the_highest_third_is_significant),
+        cmocka_unit_test(scatter_makes_no_waves),
         cmocka_unit_test(narrow_bands_follow_rayleigh),
         cmocka_unit_test(noise_has_no_waves),
         cmocka_unit_test(short_series_have_no_waves),
