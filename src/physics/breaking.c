@@ -5,7 +5,10 @@
 
 double sb_breaking_height(double number, double depth)
 {
-    return fmin(0.142 * 2 * M_PI / number * tanh(number * depth), SB_SOLITARY_HIGHEST * depth);
+    const double s = number * depth / (2 * M_PI); /* depth over length */
+    const double above = 0.0077829 + s * (0.0095721 + s * 0.141063);
+    const double below = 0.0093407 + s * (0.0317567 + s * (0.0788340 + s));
+    return fmin(above / below, SB_SOLITARY_HIGHEST) * depth;
 }
 
 bool sb_is_tide(double length, double depth)

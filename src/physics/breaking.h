@@ -10,8 +10,9 @@
    1983: 0.8332]. Waves of constant form approach it with their length. */
 #define SB_SOLITARY_HIGHEST 0.8332
 
-/* Returns the greatest height in m of a wave of the number k: 0.142 L tanh kd [Miche 1944], and no more than that of a
-   solitary wave, which is lower for waves longer than 13.5 depths. */
+/* Returns the height in m of the highest steady wave of the number k [Williams 1981, as fitted by Fenton 1990, eq. 32]:
+   0.141 L in deep water, that of a solitary wave in shallow water. With k of the linear wave of a period it is up to
+   14 % low in deep water, where the highest wave of the period is longer, and less elsewhere. */
 double sb_breaking_height(double number, double depth);
 
 /* Greatest height of a standing wave over L tanh kd [Penney and Price 1952: 0.218 in deep water]. */

@@ -7,7 +7,7 @@
 static const char *const names[] = {
     [SB_SPECTRUM_JONSWAP] = "linear sum, JONSWAP", [SB_SPECTRUM_PIERSON_MOSKOWITZ] = "linear sum, Pierson-Moskowitz"};
 
-/* A spectrum whose significant height breaks at its peak [Miche 1944]. */
+/* Refuses a spectrum whose significant height breaks at its peak. */
 static sb_status check_height(const sb_wavemaker_parameters *p, const char *what, sb_error *error)
 {
     sb_regular_wave wave;
