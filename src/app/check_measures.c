@@ -3,6 +3,7 @@
 #include "app/check_measures.h"
 
 #include "output/wave_table.h"
+#include "output/overtopping_rate.h"
 #include "physics/eurotop.h"
 #include "physics/reflection.h"
 
@@ -102,4 +103,49 @@ void sb_measure_warnings(const sb_scene *scene, sb_warning_visit *visit, void *c
     warn_of_waves(scene, visit, context);
     warn_of_rows(scene, visit, context);
     warn_of_rates(scene, visit, context);
+}
+
+typedef void visit_rate(const sb_flow_plane *plane, double freeboard, double rate, void *context);
+
+static void visit_rates(const sb_scene *scene, visit_rate *visit, void *context)
+{
+    for (size_t p = 0; p < scene->measure.plane_count; p++) {
+        const sb_flow_plane *plane = &scene->measure.planes[p];
+        const sb_eurotop_settings *e = &plane->eurotop;
+        if (!(e->height > 0)) continue;
+        const double freeboard = e->crest - scene->sea.level;
+        visit(plane, freeboard, sb_eurotop_rate(e->height, freeboard, e->slope, e->period, scene->fluid.gravity),
+              context);
+    }
+}
+
+static void print_rate(const sb_flow_plane *plane, double freeboard, double rate, void *context)
+{
+    (void)context;
+    printf("  overtopping of %s: %.3g m^2/s (%.3g l/s per m) by EurOtop, with H_m0 %g m and a freeboard of %.4g m\n",
+           plane->name, rate, 1000 * rate, plane->eurotop.height, freeboard);
+}
+
+void sb_check_rates_text(const sb_scene *scene)
+{
+    visit_rates(scene, print_rate, NULL);
+}
+
+static void put_rate(const sb_flow_plane *plane, double freeboard, double rate, void *context)
+{
+    sb_json *json = context;
+    sb_json_open(json, NULL, '{');
+    sb_json_text(json, "plane", plane->name);
+    sb_json_number(json, "eurotop_m2_s", rate);
+    sb_json_number(json, "freeboard_m", freeboard);
+    sb_json_number(json, "height_m", plane->eurotop.height);
+    sb_json_close(json);
+}
+
+void sb_check_rates_json(const sb_scene *scene, sb_json *json)
+{
+    if (!sb_overtopping_wanted(scene)) return;
+    sb_json_open(json, "overtopping", '[');
+    visit_rates(scene, put_rate, json);
+    sb_json_close(json);
 }

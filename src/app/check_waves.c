@@ -1,24 +1,30 @@
 #include "app/check_waves.h"
 
 #include "app/check_zones.h"
+#include "base/memory.h"
 #include "base/per_cent.h"
 #include "physics/dispersion.h"
 #include "physics/paddle_way.h"
+#include "physics/steady_wave.h"
 #include "sim/sim.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 typedef void visit_train(void *context, const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle);
 
-/* Calls visit for each wave maker that makes a wave train. The scene has been read, so that all of them can be made. */
-static size_t visit_trains(const sb_scene *scene, visit_train *visit, void *context)
+/* Calls visit for each wave maker that makes a wave train, or one that makes a solitary wave. The scene has been read,
+   so that all of them can be made. */
+static size_t visit_makers(const sb_scene *scene, bool solitary, visit_train *visit, void *context)
 {
     size_t count = 0;
     for (size_t w = 0; w < scene->wavemaker_count; w++) {
         const sb_wavemaker_use *maker = &scene->wavemakers[w];
+        const sb_wavemaker *kind = maker->law.kind;
+        const bool wanted = solitary ? !kind->facts && (kind->needs & SB_WM_HEIGHT) : kind->facts != NULL;
         sb_paddle paddle = {0};
-        if (!maker->law.kind->facts || sb_paddle_create(&maker->law, &paddle, NULL) != SB_OK) continue;
+        if (!wanted || sb_paddle_create(&maker->law, &paddle, NULL) != SB_OK) continue;
         if (visit) visit(context, scene, maker, &paddle);
         sb_paddle_destroy(&paddle);
         count++;
@@ -31,6 +37,30 @@ static double travel_of(const sb_scene *scene, const sb_paddle *paddle)
 {
     const sb_paddle_way way = sb_paddle_way_of(paddle, scene->duration);
     return way.most - way.least;
+}
+
+/* Mean periods of a spectrum by its moments, s. */
+typedef struct mean_periods {
+    double crossing, energy; /* T_m02; T_m-1,0 */
+    size_t count;            /* of waves; 0: no spectrum */
+} mean_periods;
+
+static mean_periods mean_periods_of(const sb_paddle *paddle)
+{
+    mean_periods found = {0};
+    double zeroth = 0, second = 0, inverse = 0;
+    if (paddle->kind->facts(paddle->state)->repeats) return found;
+    sb_band_part *band = sb_paddle_band(paddle, &found.count);
+    for (size_t i = 0; band && i < found.count; i++) {
+        zeroth += band[i].weight;
+        second += band[i].weight * band[i].omega * band[i].omega;
+        inverse += band[i].weight / band[i].omega;
+    }
+    if (!(zeroth > 0)) found.count = 0;
+    found.crossing = 2 * M_PI * sqrt(zeroth / second);
+    found.energy = 2 * M_PI * inverse / zeroth;
+    sb_free(band);
+    return found;
 }
 
 /* Reflection of an absorbing paddle by linear theory; NaN: it does not absorb. */
@@ -88,6 +118,16 @@ static void print_absorption(const sb_scene *scene, const sb_wavemaker_use *make
            maker->law.reach, facts->period, sb_per_cent(predicted.peak, text), more, 1 / facts->slow);
 }
 
+/* Length of the steady wave of the same height and period in a closed flume, m: what a gauge sees of high waves, which
+   are longer than linear ones. NaN: no regular waves, or not known. */
+static double steady_length(const sb_scene *scene, const sb_wavemaker_use *maker, const sb_wave_facts *f)
+{
+    sb_steady_wave wave;
+    if (strcmp(maker->law.kind->name, "regular") != 0) return (double)NAN;
+    const bool found = sb_steady_wave_of(f->height, f->period, f->depth, scene->fluid.gravity, &wave);
+    return found ? wave.length : (double)NAN;
+}
+
 static void print_train(void *context, const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
 {
     (void)context;
@@ -100,15 +140,35 @@ static void print_train(void *context, const sb_scene *scene, const sb_wavemaker
         print_parts(scene, maker, 0);
         return;
     }
+    char steady[64] = "";
+    const double length = steady_length(scene, maker, f);
+    if (!isnan(length)) snprintf(steady, sizeof steady, ", %.4g m as a steady wave", length);
     printf("  waves of %s: %s, %s\n"
-           "    %s %.4g m, period %.4g s%s, depth %g m, wavelength %.4g m\n"
+           "    %s %.4g m, period %.4g s%s, depth %g m, wavelength %.4g m%s\n"
            "    kd %.3g, steepness H/L %.3g, Ursell number H L^2/d^3 %.3g\n"
            "    %.3g particles per height, %.3g per wavelength; travel of the paddle %.3g m\n",
            maker->name, maker->law.kind->name, f->theory, f->height_name, f->height, f->period,
-           f->count > 2 ? " at the peak" : "", f->depth, f->length, f->number * f->depth, f->height / f->length,
+           f->count > 2 ? " at the peak" : "", f->depth, f->length, steady, f->number * f->depth, f->height / f->length,
            f->ursell, f->height / spacing, f->length / spacing, travel_of(scene, paddle));
+    const mean_periods mean = mean_periods_of(paddle);
+    if (mean.count > 0)
+        printf("    %zu linear waves; mean periods T_m02 %.4g s, T_m-1,0 %.4g s\n", mean.count, mean.crossing,
+               mean.energy);
     print_absorption(scene, maker, paddle);
     print_parts(scene, maker, height_over_stroke(scene, maker, paddle));
+}
+
+/* A solitary wave, which is no wave train. */
+static void print_solitary(void *context, const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
+{
+    (void)context;
+    const sb_wavemaker_parameters *law = &maker->law;
+    printf("  wave of %s: solitary, %s\n"
+           "    height %.4g m, depth %g m, H/d %.3g, speed %.4g m/s\n"
+           "    %.3g particles per height; travel of the paddle %.3g m in %.3g s\n",
+           maker->name, law->kind->name, law->height, law->depth, law->height / law->depth,
+           sb_paddle_celerity(law, paddle), law->height / scene->resolution, travel_of(scene, paddle),
+           paddle->duration);
 }
 
 static double viscosity_of(const sb_scene *scene, const sb_model *model, const sb_sponge *sponge)
@@ -166,7 +226,8 @@ static void put_initial(const sb_scene *scene, sb_json *json)
 void sb_check_waves_text(const sb_scene *scene, const sb_model *model)
 {
     print_initial(scene);
-    visit_trains(scene, print_train, NULL);
+    visit_makers(scene, true, print_solitary, NULL);
+    visit_makers(scene, false, print_train, NULL);
     for (size_t s = 0; s < scene->sponge_count; s++) {
         const sb_sponge *sponge = &scene->sponges[s];
         const bool viscous = sponge->kind == SB_SPONGE_VISCOUS;
@@ -190,12 +251,20 @@ static void put_train(void *context, const sb_scene *scene, const sb_wavemaker_u
     sb_json_number(json, "height_m", f->height);
     sb_json_number(json, "period_s", f->period);
     sb_json_number(json, "wavelength_m", f->length);
+    const double steady = steady_length(scene, maker, f);
+    if (!isnan(steady)) sb_json_number(json, "steady_wavelength_m", steady);
     sb_json_number(json, "kd", f->number * f->depth);
     sb_json_number(json, "steepness", f->height / f->length);
     sb_json_number(json, "ursell", f->ursell);
     sb_json_number(json, "particles_per_height", f->height / scene->resolution);
     sb_json_number(json, "particles_per_wavelength", f->length / scene->resolution);
     sb_json_number(json, "travel_m", travel_of(scene, paddle));
+    const mean_periods mean = mean_periods_of(paddle);
+    if (mean.count > 0) {
+        sb_json_count(json, "components", mean.count);
+        sb_json_number(json, "t_m02_s", mean.crossing);
+        sb_json_number(json, "t_m_10_s", mean.energy);
+    }
     if (maker->law.absorb) {
         const reflection predicted = paddle_reflection(scene, maker, paddle);
         sb_json_number(json, "predicted_reflection", predicted.peak);
@@ -210,9 +279,9 @@ static void put_train(void *context, const sb_scene *scene, const sb_wavemaker_u
 void sb_check_waves_json(const sb_scene *scene, const sb_model *model, sb_json *json)
 {
     put_initial(scene, json);
-    if (visit_trains(scene, NULL, NULL) > 0) {
+    if (visit_makers(scene, false, NULL, NULL) > 0) {
         sb_json_open(json, "waves", '[');
-        visit_trains(scene, put_train, json);
+        visit_makers(scene, false, put_train, json);
         sb_json_close(json);
     }
     if (scene->sponge_count == 0) return;

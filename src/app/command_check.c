@@ -1,3 +1,4 @@
+#include "app/check_measures.h"
 #include "app/check_tension.h"
 #include "app/check_terrain.h"
 #include "app/check_waves.h"
@@ -141,6 +142,7 @@ static void report_text(const sb_scene *scene, const sb_model *model, const esti
     if (e->sea) printf("  given water        %s\n", sb_sea_about(e->sea));
     for (int side = 0; side < 4; side++) report_sea(model, side);
     sb_check_waves_text(scene, model);
+    sb_check_rates_text(scene);
     sb_check_tension_text(scene, model);
     if (e->grid.cells > 0)
         printf("  grid               %.0f cells, %.0f MB, about %.0f steps of %.3g s, %.1f %% of the run time\n",
@@ -173,6 +175,7 @@ static void report_json(const sb_scene *scene, const sb_model *model, const esti
     sb_json_number(&json, "still_depth_m", model->still_depth);
     if (e->sea) sb_json_text(&json, "given_water", sb_sea_about(e->sea));
     sb_check_waves_json(scene, model, &json);
+    sb_check_rates_json(scene, &json);
     sb_check_tension_json(scene, model, &json);
     if (e->grid.cells > 0) {
         sb_json_number(&json, "grid_cells", e->grid.cells);

@@ -4,6 +4,7 @@
 #include "base/per_cent.h"
 #include "physics/dispersion.h"
 #include "physics/regular_wave.h"
+#include "physics/steady_wave.h"
 #include "physics/wavemaker.h"
 
 #include <math.h>
@@ -116,9 +117,34 @@ static void warn_of_long_waves(const sb_wavemaker_use *maker, const sb_paddle *p
     const sb_wave_facts *facts = maker->law.kind->facts(paddle->state);
     if (maker->law.kind->needs & SB_WM_THEORY || facts->ursell < SB_URSELL_LIMIT) return;
     snprintf(text, sizeof text,
-             "wave maker \"%s\": its waves are linear, but H L^2/d^3 = %.3g is above %.3g: free long waves and free "
+             "wave maker \"%s\": its waves are linear, but H L^2/d^3 = %.4g is above %.3g: free long waves and free "
              "waves of twice the frequency will come with them; expected lower or shorter waves, or deeper water",
              maker->name, facts->ursell, SB_URSELL_LIMIT);
+    visit(context, text);
+}
+
+/* Relative error of the length from which a wave of cnoidal theory is told to differ from the steady wave. */
+static const double CNOIDAL_ERROR = 0.01;
+
+/* High waves of middle depth are beyond second-order theory, and still too short for cnoidal theory. */
+static void warn_of_middle_waves(const sb_wavemaker_use *maker, sb_warning_visit *visit, void *context)
+{
+    char text[400];
+    const sb_wavemaker_parameters *law = &maker->law;
+    sb_regular_wave wave;
+    sb_steady_wave steady;
+    if (!(law->kind->needs & SB_WM_THEORY) || law->theory != SB_WAVE_AUTO || law->motion != SB_PADDLE_PISTON) return;
+    if (sb_regular_wave_create(law->theory, law->height, law->period, law->depth, law->gravity, &wave, NULL) != SB_OK)
+        return;
+    if (wave.order != SB_WAVE_CNOIDAL || wave.number * law->depth < 0.5) return;
+    if (!sb_steady_wave_of(law->height, law->period, law->depth, law->gravity, &steady)) return;
+    if (fabs(wave.length / steady.length - 1) < CNOIDAL_ERROR) return;
+    snprintf(
+        text, sizeof text,
+        "wave maker \"%s\": its waves are too high for second-order theory and too short for cnoidal theory, which "
+        "is used: their length is %.4g m, that of the steady wave %.4g m, and free waves will come with them; "
+        "expected lower or longer waves, or deeper water",
+        maker->name, wave.length, steady.length);
     visit(context, text);
 }
 
@@ -133,7 +159,7 @@ static void warn_of_short_waves(const sb_wavemaker_use *maker, sb_warning_visit 
         return;
     if (wave.ursell >= SB_URSELL_LIMIT) return;
     snprintf(text, sizeof text,
-             "wave maker \"%s\": theory cnoidal is for long waves, and H L^2/d^3 of linear theory is %.3g, below %.3g: "
+             "wave maker \"%s\": theory cnoidal is for long waves, and H L^2/d^3 of linear theory is %.4g, below %.3g: "
              "the waves will differ from the theory in length and form; expected theory: auto or second-order",
              maker->name, wave.ursell, SB_URSELL_LIMIT);
     visit(context, text);
@@ -254,6 +280,7 @@ sb_status sb_wave_warnings(const sb_scene *scene, sb_warning_visit *visit, void 
         if (status == SB_OK) warn_of_ramp(scene, maker, paddle.duration, visit, context);
         if (status == SB_OK) warn_of_long_waves(maker, &paddle, visit, context);
         if (status == SB_OK) warn_of_short_waves(maker, visit, context);
+        if (status == SB_OK) warn_of_middle_waves(maker, visit, context);
         if (status == SB_OK && needs & SB_WM_FOCUS) warn_of_late_focus(scene, maker, visit, context);
         if (status == SB_OK && needs & SB_WM_FOCUS) status = visit_group(maker, &paddle, visit, context, error);
         if (status == SB_OK && needs & SB_WM_FILE && needs & SB_WM_DISTANCE)

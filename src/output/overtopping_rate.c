@@ -38,8 +38,7 @@ static sb_overtopping_rate rate_at(const sb_scene *scene, const sb_flow_plane *p
     }
     if (found.to > found.from) found.rate = (last - first) / ((found.to - found.from) * width);
     found.freeboard = e->crest - scene->sea.level;
-    found.formula = e->slope > 0 ? sb_eurotop_slope(e->height, found.freeboard, e->slope, e->period, g)
-                                 : sb_eurotop_vertical(e->height, found.freeboard, g);
+    found.formula = sb_eurotop_rate(e->height, found.freeboard, e->slope, e->period, g);
     return found;
 }
 

@@ -31,3 +31,9 @@ double sb_eurotop_slope(double height, double freeboard, double slope, double pe
     return fmin(rate(0.023 / sqrt(slope) * x, 2.7 / x, relative, height, gravity),
                 rate(0.09, 1.5, relative, height, gravity));
 }
+
+double sb_eurotop_rate(double height, double freeboard, double slope, double period, double gravity)
+{
+    return slope > 0 ? sb_eurotop_slope(height, freeboard, slope, period, gravity)
+                     : sb_eurotop_vertical(height, freeboard, gravity);
+}

@@ -24,4 +24,7 @@ double sb_eurotop_breaker(double height, double slope, double period, double gra
    slope: s, its tangent, > 0; period: T_m-1,0, s, not used for steep slopes. */
 double sb_eurotop_slope(double height, double freeboard, double slope, double period, double gravity);
 
+/* That of a slope, or with slope 0 that of a vertical wall. */
+double sb_eurotop_rate(double height, double freeboard, double slope, double period, double gravity);
+
 #endif

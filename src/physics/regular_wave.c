@@ -29,7 +29,7 @@ static sb_status prepare(sb_regular_wave *wave, sb_error *error)
     if (wave->order == SB_WAVE_LINEAR) return SB_OK;
     if (!(wave->ursell < SB_URSELL_LIMIT))
         return sb_fail(error, SB_BAD_INPUT,
-                       "a second-order wave of %g m with a period of %g s on %g m has H L^2/d^3 = %.3g, expected less "
+                       "a second-order wave of %g m with a period of %g s on %g m has H L^2/d^3 = %.4g, expected less "
                        "than %.3g; a cnoidal wave is valid there",
                        wave->height, wave->period, wave->depth, wave->ursell, SB_URSELL_LIMIT);
     /* eta2 = k H^2/16 cosh kd (2 + cosh 2kd)/sinh^3 kd = k H^2/16 (3 - T^2)/T^3 with T = tanh kd. */

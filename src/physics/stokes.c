@@ -66,7 +66,7 @@ static sb_status check(const sb_stokes *wave, sb_error *error)
     if (!(ursell < limit))
         return sb_fail(
             error, SB_BAD_INPUT,
-            "a wave of %g m with a length of %g m on %g m has H L^2/d^3 = %.3g, too long for a Stokes wave of "
+            "a wave of %g m with a length of %g m on %g m has H L^2/d^3 = %.4g, too long for a Stokes wave of "
             "this order, expected less than %.3g",
             wave->height, wave->length, d, ursell, limit);
     return SB_OK;

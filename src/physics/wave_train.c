@@ -143,7 +143,8 @@ void sb_wave_train_complete(sb_wave_train *train)
     facts->number =
         facts->length > 0 ? 2 * M_PI / facts->length : sb_wave_number(facts->period, train->depth, train->gravity);
     facts->length = 2 * M_PI / facts->number;
-    facts->ursell = facts->height * facts->length * facts->length / (train->depth * train->depth * train->depth);
+    const double linear = 2 * M_PI / sb_wave_number(facts->period, train->depth, train->gravity);
+    facts->ursell = facts->height * linear * linear / (train->depth * train->depth * train->depth);
     facts->count = train->count;
     facts->repeats = train->is_cnoidal || train->count == 1 || (train->count == 2 && train->part[1].bound);
 }

@@ -64,7 +64,7 @@ typedef struct sb_wave_facts {
     const char *height_name;       /* "height", "significant height", ...: static text */
     double height, period, depth;  /* m; s, at the peak of a spectrum; m */
     double crest;                  /* m above the still level; of sums half of the height; 0: no waves */
-    double length, number, ursell; /* m; 1/m; H L^2/d^3 */
+    double length, number, ursell; /* m; 1/m; H L^2/d^3 with the length of the linear wave, which decides */
     double ramp;                   /* s */
     double slow;                   /* 1/s, rate at which an absorbing paddle forgets levels and returns */
     size_t count;                  /* parts of the sum; 0: a cnoidal wave */

@@ -52,7 +52,9 @@ static const sb_key eurotop_keys[] = {
     {.name = "slope", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, slope), .min = 0, .max = 20,
      .fallback = "0", .doc = "Tangent of the structure's smooth slope; 0: a vertical wall."},
     {.name = "period", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, period), .unit = "s",
-     SB_KEY_NOT_NEGATIVE, .fallback = "0", .doc = "Spectral period T_m-1,0 of the waves; needed for slopes up to 1:2."},
+     SB_KEY_NOT_NEGATIVE, .fallback = "0",
+     .doc = "Spectral period T_m-1,0 of the waves, which is shorter than the peak period (0.91 of it for JONSWAP with "
+            "gamma 3.3, 0.86 for Pierson-Moskowitz); needed for slopes up to 1:2."},
     {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_eurotop_settings, start), .unit = "s",
      SB_KEY_NOT_NEGATIVE, .fallback = "0", .doc = "Time from which the rate is the mean."},
 };

@@ -104,7 +104,7 @@ static void describe(const theory *made, const sb_given_sea *given, sb_sea_notes
     if (made->kind != SB_GIVEN_REGULAR || wave->order != SB_WAVE_LINEAR) return;
     if (wave->ursell >= SB_URSELL_LIMIT)
         snprintf(notes->warning, sizeof notes->warning,
-                 "sea.order: linear waves of %g m and %.4g m length on %g m are long: H L^2/d^3 = %.3g is above %.3g, "
+                 "sea.order: linear waves of %g m and %.4g m length on %g m are long: H L^2/d^3 = %.4g is above %.3g, "
                  "and they change on their way; expected order: auto, which gives cnoidal waves",
                  wave->height, wave->length, wave->depth, wave->ursell, SB_URSELL_LIMIT);
     else if (wave->height > 0.02 * wave->length)

@@ -253,6 +253,46 @@ static void check_knows_the_viscosity_of_the_run(void **state)
     }
 }
 
+static double figure(const char *json, const char *name)
+{
+    char key[64];
+    snprintf(key, sizeof key, "\"%s\": ", name);
+    const char *at = strstr(json, key);
+    if (!at) fail_msg("%s is not in %s", name, json);
+    return strtod(at + strlen(key), NULL);
+}
+
+/* Mean periods of a JONSWAP spectrum with gamma 3.3: T_m-1,0 is 0.906, T_m02 0.78 to 0.83 of the peak period, by the
+   band of frequencies. The rate is 0.047 exp(-(2.35 R/H)^1.3) sqrt(g H^3) with R 0.4 m. A wave of 0.15 m and 1 s on 1 m
+   is 1.658 m long in a closed flume. */
+static void check_tells_waves_and_rates(void **state)
+{
+    (void)state;
+#define PADDLE(law)                                                                                                    \
+    "dimensions: 2\nresolution: 0.1\nduration: 9\ndomain: {min: [-1, 0], max: [30, 2.5]}\n"                            \
+    "water: {level: 1, seed: [5, 0.2]}\nbodies: [{name: p, shape: box, min: [-0.4, 0], max: [0, 2]}]\n"                \
+    "wavemakers: [{name: w, body: p, depth: 1, " law "}]\n"                                                            \
+    "measure: {planes: [{name: top, from: [20], z_min: 1.4, eurotop: {height: 0.3}}]}\n"
+    write_text("irregular.yaml", PADDLE("kind: irregular, height: 0.3, period: 3"));
+    outcome o = RUN(0, "check", "irregular.yaml", "--json");
+    assert_near(figure(o.out, "t_m_10_s"), 0.906 * 3, 0.02);
+    assert_true(figure(o.out, "t_m02_s") > 0.78 * 3 && figure(o.out, "t_m02_s") < 0.83 * 3);
+    assert_near(figure(o.out, "components"), 200, 0);
+    const double rate = 0.047 * exp(-pow(2.35 * 0.4 / 0.3, 1.3)) * sqrt(9.81 * 0.3 * 0.3 * 0.3);
+    assert_near(figure(o.out, "eurotop_m2_s"), rate, 1e-6 * rate);
+    outcome_free(&o);
+    write_text("steep.yaml", PADDLE("kind: regular, height: 0.15, period: 1"));
+    o = RUN(0, "check", "steep.yaml", "--json");
+    assert_near(figure(o.out, "steady_wavelength_m"), 1.6585, 5e-4);
+    outcome_free(&o);
+    write_text("solitary.yaml", PADDLE("kind: goring, height: 0.3"));
+    o = RUN(0, "check", "solitary.yaml");
+    assert_contains(o.out, "wave of w: solitary, goring");
+    assert_contains(o.out, "H/d 0.3");
+    outcome_free(&o);
+#undef PADDLE
+}
+
 /* A scene that can run but is probably not what the user meant gives a warning in `check` and in `run`. */
 static void a_doubtful_scene_gives_a_warning(void **state)
 {
@@ -453,6 +493,7 @@ int main(void)
         cmocka_unit_test(check_prints_reflections),
         cmocka_unit_test(check_in_json),
         cmocka_unit_test(check_knows_the_viscosity_of_the_run),
+        cmocka_unit_test(check_tells_waves_and_rates),
         cmocka_unit_test(a_lost_result_is_an_error),
         cmocka_unit_test(a_doubtful_scene_gives_a_warning),
         cmocka_unit_test(check_counts_neighbours_as_memory),

@@ -64,7 +64,7 @@ static sb_status check_ursell(const char *key, double ursell, const char *come, 
 {
     if (ursell < SB_URSELL_LIMIT) return SB_OK;
     return sb_model_warn(model, error,
-                         "%s: the waves are linear, but H L^2/d^3 = %.3g is above %.3g: %s will come with them; "
+                         "%s: the waves are linear, but H L^2/d^3 = %.4g is above %.3g: %s will come with them; "
                          "expected lower or shorter waves, or deeper water",
                          key, ursell, SB_URSELL_LIMIT, come);
 }
