@@ -11,7 +11,8 @@ sb_status sb_stage_sponge(sb_sim *sim, sb_error *error);
 sb_status sb_stage_drained(sb_sim *sim, sb_error *error);
 
 /* After the turbulence: adds the viscosity of sponges to sim->work.eddy, which the stage forces adds to the physical
-   viscosity. [W] gives it to approaching particles alone; here it has the same mean, and acts on all. */
+   viscosity. It acts on all pairs, with the mean that alpha would have on approaching pairs alone with h the support
+   radius; method.md, section 14. */
 sb_status sb_stage_viscous_sponge(sb_sim *sim, sb_error *error);
 
 #endif
