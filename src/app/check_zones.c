@@ -84,15 +84,9 @@ double sb_zone_reflection(const sb_scene *scene, const sb_sponge *sponge, double
                                         gravity, sponge->length);
 }
 
-/* Speed of sound of a sea as deep as the sponge, m/s. */
-static double sound_of(const sb_scene *scene, const sb_sponge *sponge)
-{
-    const double given = scene->numerics.sound_speed;
-    return given > 0 ? given : 10 * sqrt(scene->fluid.gravity * sponge->depth);
-}
-
 /* A sponge made for other waves than those that run to it, or too short or too strong for them. */
-static void warn_of_reflection(const sb_scene *scene, const sb_sponge *sponge, sb_warning_visit *visit, void *context)
+static void warn_of_reflection(const sb_scene *scene, const sb_sponge *sponge, double sound, sb_warning_visit *visit,
+                               void *context)
 {
     static const double most = 0.2;
     char text[400], reflected[32];
@@ -100,7 +94,7 @@ static void warn_of_reflection(const sb_scene *scene, const sb_sponge *sponge, s
         if (!run_to(&scene->wavemakers[w], sponge)) continue;
         const double period = period_of(&scene->wavemakers[w]);
         if (!(period > 0)) continue;
-        const double share = sb_zone_reflection(scene, sponge, period, sound_of(scene, sponge));
+        const double share = sb_zone_reflection(scene, sponge, period, sound);
         if (!(share > most)) continue;
         snprintf(text, sizeof text,
                  "sponge \"%s\": by linear theory it reflects %s of waves of %.4g s, those of \"%s\"; expected a "
@@ -146,11 +140,11 @@ static void warn_of_sea(const sb_scene *scene, const sb_sponge *sponge, sb_warni
     visit(context, text);
 }
 
-void sb_zone_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context)
+void sb_zone_warnings(const sb_scene *scene, double sound, sb_warning_visit *visit, void *context)
 {
     for (size_t s = 0; s < scene->sponge_count; s++) {
         warn_of_beginning(scene, &scene->sponges[s], visit, context);
-        warn_of_reflection(scene, &scene->sponges[s], visit, context);
+        warn_of_reflection(scene, &scene->sponges[s], sound, visit, context);
         warn_of_gauges(scene, &scene->sponges[s], visit, context);
         warn_of_sea(scene, &scene->sponges[s], visit, context);
         for (size_t t = 0; t < s; t++) warn_of_overlap(scene, &scene->sponges[t], &scene->sponges[s], visit, context);

@@ -6,8 +6,8 @@
 #include "scene/scene.h"
 
 /* Warns of sponges that begin outside of the domain, of those that overlap, and of those that reflect waves of the
-   scene. */
-void sb_zone_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context);
+   scene. sound: speed of sound of the run, m/s. */
+void sb_zone_warnings(const sb_scene *scene, double sound, sb_warning_visit *visit, void *context);
 
 /* Viscosity at the end of a viscous sponge, m^2/s; 0 of a damping one. sound: speed of sound, m/s. */
 double sb_zone_viscosity(const sb_scene *scene, const sb_sponge *sponge, double sound);

@@ -88,7 +88,7 @@ static void visit_warnings(const sb_scene *scene, const sb_model *model, sb_warn
     sb_error reason = {0};
     if (sb_scene_warnings(scene, visit, context, &reason) != SB_OK) visit(context, reason.text);
     if (sb_scene_nested(scene)) sb_grid_wave_warnings(scene, visit, context);
-    if (sb_facet_warnings(scene, model, visit, context, &reason) != SB_OK) visit(context, reason.text);
+    if (sb_model_warnings(scene, model, visit, context, &reason) != SB_OK) visit(context, reason.text);
     sb_team_warnings(visit, context);
     /* Only a warning, because the run may be meant for another machine. */
     sb_error room = {0};

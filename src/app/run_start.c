@@ -138,7 +138,7 @@ static sb_status note_start(run *r, sb_error *error)
     sb_status status = sb_scene_warnings(r->scene, warn, r, error);
     if (status != SB_OK) return status;
     if (sb_scene_nested(r->scene)) sb_grid_wave_warnings(r->scene, warn, r);
-    status = sb_facet_warnings(r->scene, &r->model, warn, r, error);
+    status = sb_model_warnings(r->scene, &r->model, warn, r, error);
     if (status != SB_OK) return status;
     if (r->earlier.others == 1)
         sb_run_warn(r, "%.500s/%.300s: is not a file of a run; it is kept", r->directory, r->earlier.first_other);

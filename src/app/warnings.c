@@ -14,6 +14,27 @@
 #include <stdio.h>
 
 /* The times are in increasing order: the last one decides. */
+/* Values of other units than those of the keys: g/cm^3, cm/s^2 and Pa s are the usual ones. */
+static void warn_of_fluid(const sb_scene *scene, sb_warning_visit *visit, void *context)
+{
+    const sb_fluid_properties *fluid = &scene->fluid;
+    const struct {
+        const char *key, *unit, *expected;
+        double value, least, most;
+    } rows[] = {
+        {"density", "kg/m3", "1000 for fresh water, 1025 for the sea", fluid->density, 500, 3000},
+        {"gravity", "m/s2", "9.81", fluid->gravity, 1, 30},
+        {"viscosity", "m2/s", "1e-6 for water; it is the kinematic one, not that in Pa s", fluid->viscosity, 0, 5e-4},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[300];
+        if (rows[i].value >= rows[i].least && rows[i].value <= rows[i].most) continue;
+        snprintf(text, sizeof text, "fluid.%s: %g %s is that of no water; expected %s", rows[i].key, rows[i].value,
+                 rows[i].unit, rows[i].expected);
+        visit(context, text);
+    }
+}
+
 static void warn_of_stills(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
     const sb_render_settings *render = &scene->render;
@@ -44,6 +65,7 @@ static void warn_of_pieces(const sb_scene *scene, sb_warning_visit *visit, void 
 sb_status sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context, sb_error *error)
 {
     char text[256];
+    warn_of_fluid(scene, visit, context);
     warn_of_stills(scene, visit, context);
     warn_of_foam(scene, visit, context);
     warn_of_pieces(scene, visit, context);
@@ -83,7 +105,6 @@ sb_status sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void
     sb_tension_warnings(scene, visit, context);
     sb_period_warning(scene, "measure.waves.period", scene->measure.waves.period, visit, context);
     sb_measure_warnings(scene, visit, context);
-    sb_zone_warnings(scene, visit, context);
     sb_sea_warnings(scene, visit, context);
     sb_breaking_warnings(scene, visit, context);
     if (scene->measure.interval > scene->duration) {
@@ -96,8 +117,9 @@ sb_status sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void
     return status;
 }
 
-sb_status sb_facet_warnings(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context,
-                            sb_error *error)
+/* Walls that reflect water and have more facets than the simulation can handle. */
+static sb_status warn_of_crowding(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context,
+                                  sb_error *error)
 {
     char text[400], more[64] = "";
     sb_crowding found;
@@ -111,4 +133,11 @@ sb_status sb_facet_warnings(const sb_scene *scene, const sb_model *model, sb_war
         found.first.x, found.first.y, found.first.z, more, found.facets, found.edges, found.width);
     visit(context, text);
     return SB_OK;
+}
+
+sb_status sb_model_warnings(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context,
+                            sb_error *error)
+{
+    if (scene->sponge_count > 0) sb_zone_warnings(scene, sb_sim_sound_speed(scene, model), visit, context);
+    return warn_of_crowding(scene, model, visit, context, error);
 }

@@ -9,9 +9,9 @@
    SB_FAILED without memory for one of them. */
 sb_status sb_scene_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context, sb_error *error);
 
-/* The same for walls that reflect water and have more facets than the simulation can handle. SB_FAILED without memory.
- */
-sb_status sb_facet_warnings(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context,
+/* The same for what follows from the model: what sponges reflect, and walls that reflect water and have more facets than
+   the simulation can handle. SB_FAILED without memory. */
+sb_status sb_model_warnings(const sb_scene *scene, const sb_model *model, sb_warning_visit *visit, void *context,
                             sb_error *error);
 
 #endif

@@ -256,6 +256,16 @@ static const struct {
      "{name: bank, shape: box, min: [0, 0, 0], max: [2, 0.6, 0.9]}]\n"
      "wavemakers: [{name: w, body: paddle, kind: absorber, depth: 0.5, period: 1.5, plates: {width: 0.35}}]\n",
      "wave maker \"w\": of its face of 2 m, 1.4 m have water ahead", "push-plates without water do not absorb"},
+    {"title: t\nresolution: 0.1\nduration: 0.02\noutput: {plots: false}\nmeasure: {interval: 0.01}\n"
+     "domain: {min: [-1, 0, 0], max: [2, 2, 1]}\nwater: {level: 0.5, seed: [1, 1.5, 0.2]}\n"
+     "bodies: [{name: paddle, shape: box, min: [-0.5, 0, 0], max: [0, 1, 0.9]}]\n"
+     "wavemakers: [{name: w, body: paddle, kind: regular, height: 0.05, depth: 0.5, period: 1.5}]\n",
+     "wave maker \"w\": the water ahead of its face of 1 m is 2 m wide", "expected a body as wide as the water"},
+    {FLUME("kind: focused, height: 0.1, period: 2.3, distance: 8, focus: 20", BEACH "length: 4, depth: 1}", ""),
+     "wave maker \"w\": its distance of 8 m is in the sponge \"beach\", which begins 6 m ahead",
+     "expected a shorter distance or a shorter sponge"},
+    {STILL "fluid: {density: 1}\n", "fluid.density: 1 kg/m3 is that of no water", "expected 1000 for fresh water"},
+    {STILL "fluid: {viscosity: 1e-3}\n", "fluid.viscosity: 0.001 m2/s is that of no water", "the kinematic one"},
     {FLUME("kind: irregular, height: 0.06, period: 1.2", "", ""),
      "wave maker \"w\": 48 % of the energy of its waves is "
      "in lengths below 2 m, 20 particle spacings",

@@ -8,6 +8,9 @@
 /* In spacings: distance from a face within which its water is looked for. */
 static const double NEAR = 3;
 
+/* In spacings: water beside a face within which it is as wide as the water. */
+static const double BESIDE = 2;
+
 /* Share of its face that an undivided absorbing paddle needs in water: reflected is (1 - WIDE)/(1 + WIDE), 2.5 %. */
 static const double WIDE = 0.95;
 
@@ -65,17 +68,24 @@ static sb_status check_facing(const sb_scene *scene, size_t maker, const sides *
                    scene->path ? scene->path : "the scene", maker, scene->wavemakers[maker].name, towards);
 }
 
-/* An undivided paddle absorbs by the mean surface over its face, where it is within the domain; push-plates without
-   water do not absorb. */
+/* Water beside a face does not go with it. An undivided paddle absorbs by the mean surface over its face, where it is
+   within the domain; push-plates without water do not absorb. */
 static sb_status check_width(const sb_scene *scene, size_t maker, const sides *s, sb_model *model, sb_error *error)
 {
     const sb_wavemaker_use *use = &scene->wavemakers[maker];
     const extent face = extent_of(model, maker, s->across);
-    const double from = fmax(face.back, -sb_domain_end(&scene->domain, sb_scale(s->across, -1)));
-    const double to = fmin(face.front, sb_domain_end(&scene->domain, s->across));
-    const double water =
-        fmin(to, s->water.front + 0.5 * model->spacing) - fmax(from, s->water.back - 0.5 * model->spacing);
-    if (scene->dimensions == 2 || !use->law.absorb || !s->ahead || water > WIDE * (to - from)) return SB_OK;
+    const double low = -sb_domain_end(&scene->domain, sb_scale(s->across, -1));
+    const double high = sb_domain_end(&scene->domain, s->across), half = 0.5 * model->spacing;
+    const double from = fmax(face.back, low), to = fmin(face.front, high);
+    const extent wet = {fmax(low, s->water.back - half), fmin(high, s->water.front + half)};
+    const double wide = wet.front - wet.back, water = fmin(to, wet.front) - fmax(from, wet.back);
+    if (scene->dimensions == 2 || !s->ahead) return SB_OK;
+    if (wide > to - from + BESIDE * model->spacing)
+        return sb_model_warn(model, error,
+                             "wave maker \"%s\": the water ahead of its face of %.3g m is %.3g m wide: water passes "
+                             "beside it, and the waves spread and come out lower; expected a body as wide as the water",
+                             use->name, to - from, wide);
+    if (!use->law.absorb || water > WIDE * (to - from)) return SB_OK;
     if (use->plates.width > 0)
         return sb_model_warn(model, error,
                              "wave maker \"%s\": of its face of %.3g m, %.3g m have water ahead: push-plates without "
@@ -115,7 +125,19 @@ static sb_status check_distance(const sb_scene *scene, const sb_wavemaker_use *u
                                 sb_error *error)
 {
     const double ahead = sb_domain_end(&scene->domain, use->direction) - paddle.front;
-    if (!(use->law.kind->needs & SB_WM_DISTANCE) || use->law.distance <= ahead) return SB_OK;
+    if (!(use->law.kind->needs & SB_WM_DISTANCE)) return SB_OK;
+    for (size_t s = 0; s < scene->sponge_count; s++) {
+        const sb_sponge *sponge = &scene->sponges[s];
+        const double along = sb_component(use->direction, sponge->side / 2), sign = sponge->side % 2 ? 1 : -1;
+        const double begins = sign * sponge->end - paddle.front - sponge->length;
+        if (along * sign < 0.99 || use->law.distance <= begins || use->law.distance > ahead) continue;
+        return sb_model_warn(
+            model, error,
+            "wave maker \"%s\": its distance of %g m is in the sponge \"%s\", which begins %.4g m ahead "
+            "of it and takes the waves there; expected a shorter distance or a shorter sponge",
+            use->name, use->law.distance, sponge->name, begins);
+    }
+    if (use->law.distance <= ahead) return SB_OK;
     return sb_model_warn(model, error,
                          "wave maker \"%s\": its distance of %g m is outside of the domain, which ends %.4g m ahead of "
                          "it: the waves never come there; expected a shorter distance or a longer domain",
