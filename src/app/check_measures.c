@@ -2,13 +2,14 @@
    per period. */
 #include "app/check_measures.h"
 
-#include "output/wave_table.h"
 #include "output/overtopping_rate.h"
+#include "output/wave_table.h"
 #include "physics/eurotop.h"
 #include "physics/reflection.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static void warn_of_waves(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
@@ -83,12 +84,31 @@ static void warn_of_foreshore(const sb_scene *scene, const sb_flow_plane *plane,
     visit(context, text);
 }
 
+/* The formulas are means over irregular waves. */
+static void warn_of_regular(const sb_scene *scene, const sb_flow_plane *plane, sb_warning_visit *visit, void *context)
+{
+    char text[400];
+    const char *maker = NULL;
+    for (size_t w = 0; w < scene->wavemaker_count; w++) {
+        const char *kind = scene->wavemakers[w].law.kind->name;
+        if (strcmp(kind, "irregular") == 0 || strcmp(kind, "components") == 0) return;
+        if (strcmp(kind, "regular") == 0) maker = scene->wavemakers[w].name;
+    }
+    if (!(plane->eurotop.height > 0) || !maker) return;
+    snprintf(text, sizeof text,
+             "measure.planes %s: eurotop: its formulas are for irregular waves, and those of \"%s\" are regular: the "
+             "rates will differ by a factor; expected kind: irregular",
+             plane->name, maker);
+    visit(context, text);
+}
+
 static void warn_of_rates(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
     char text[400];
     for (size_t p = 0; p < scene->measure.plane_count; p++) {
         const sb_flow_plane *plane = &scene->measure.planes[p];
         warn_of_foreshore(scene, plane, visit, context);
+        warn_of_regular(scene, plane, visit, context);
         if (!(plane->eurotop.height > 0) || plane->eurotop.start < scene->duration) continue;
         snprintf(text, sizeof text,
                  "measure.planes[%zu].eurotop.start: %g s is not before the end of the run at %g s: the rate of \"%s\" "

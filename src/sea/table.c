@@ -47,6 +47,42 @@ static sb_status check_datum(const table *sea, const sb_scene *scene, sb_error *
         scene->given.file, sea->datum, scene->given.level + away, fabs(away), scene->given.level, 0.5 * depth);
 }
 
+static double greatest_surface(const void *state)
+{
+    const table *sea = state;
+    double most = -HUGE_VAL;
+    for (size_t p = 0; p < sea->series.count; p++)
+        for (size_t i = 0; i < sea->series.points[p].count; i++)
+            most = fmax(most, sea->series.points[p].values[i * SB_TABLE_CHANNELS + SB_TABLE_ETA]);
+    return sea->datum + most;
+}
+
+static double greatest_speed(const void *state)
+{
+    const table *sea = state;
+    double most = 0;
+    for (size_t p = 0; p < sea->series.count; p++)
+        for (size_t i = 0; i < sea->series.points[p].count; i++) {
+            const double *row = sea->series.points[p].values + i * SB_TABLE_CHANNELS;
+            most = fmax(most, hypot(row[SB_TABLE_U], row[SB_TABLE_V]));
+        }
+    return most;
+}
+
+/* Multiple of the speed of long waves that no such water has: the front of a dam break has 2. */
+static const double FAST = 3;
+
+static void doubt_speed(const table *sea, const sb_scene *scene, char *text, size_t size)
+{
+    const double depth = greatest_surface(sea) - scene->domain.min.z, speed = greatest_speed(sea);
+    const double waves = sqrt(scene->fluid.gravity * fmax(depth, 0));
+    if (*text || !(speed > FAST * waves)) return;
+    snprintf(text, size,
+             "sea.file: its velocities are up to %.3g m/s, %.2g times as fast as long waves in its water: are their "
+             "units m/s?",
+             speed, speed / waves);
+}
+
 static sb_status fill(table *made, const sb_scene *scene, sb_sea_notes *notes, sb_error *error)
 {
     const sb_given_sea *given = &scene->given;
@@ -63,6 +99,7 @@ static sb_status fill(table *made, const sb_scene *scene, sb_sea_notes *notes, s
     if (status == SB_OK) status = sb_line_finish(&made->series, error);
     if (status == SB_OK) sb_line_doubt(&made->series, scene, notes->warning, sizeof notes->warning);
     if (status == SB_OK) status = check_datum(made, scene, error);
+    if (status == SB_OK) doubt_speed(made, scene, notes->warning, sizeof notes->warning);
     const size_t count = made->series.count;
     snprintf(notes->about, sizeof notes->about, "a table of %zu point%s, datum %g m", count,
              count == 1 ? ", equal along the side" : "s", made->datum);
@@ -99,28 +136,6 @@ static void at(const void *state, double t, double x, double y, double z, double
         out->acceleration[axis] = rates[SB_TABLE_U + axis];
     }
     out->velocity[2] = sb_sea_fraction(z, bed, out->surface) * rates[SB_TABLE_ETA];
-}
-
-static double greatest_surface(const void *state)
-{
-    const table *sea = state;
-    double most = -HUGE_VAL;
-    for (size_t p = 0; p < sea->series.count; p++)
-        for (size_t i = 0; i < sea->series.points[p].count; i++)
-            most = fmax(most, sea->series.points[p].values[i * SB_TABLE_CHANNELS + SB_TABLE_ETA]);
-    return sea->datum + most;
-}
-
-static double greatest_speed(const void *state)
-{
-    const table *sea = state;
-    double most = 0;
-    for (size_t p = 0; p < sea->series.count; p++)
-        for (size_t i = 0; i < sea->series.points[p].count; i++) {
-            const double *row = sea->series.points[p].values + i * SB_TABLE_CHANNELS;
-            most = fmax(most, hypot(row[SB_TABLE_U], row[SB_TABLE_V]));
-        }
-    return most;
 }
 
 const sb_sea_form sb_sea_form_table = {create, at, greatest_surface, greatest_speed, destroy, NULL, NULL};

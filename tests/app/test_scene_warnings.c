@@ -199,6 +199,8 @@ static const struct {
      "measure.reflections r: waves of \"w\" are ", "expected wavelength: "},
     {FLUME(WAVES, "", ", planes: [{name: p, from: [5], z_min: 1.2, eurotop: {height: 0.02, slope: 0.4, period: 9}}]"),
      "measure.planes p: eurotop: the breaker parameter of 31.8", "expected below 7"},
+    {FLUME(WAVES, "", ", planes: [{name: p, from: [5], z_min: 1.2, eurotop: {height: 0.1}}]"),
+     "measure.planes p: eurotop: its formulas are for irregular waves", "expected kind: irregular"},
     {FLUME(WAVES, "", ", waves: {start: 3}"), "measure.waves.start: 3 s is not before the end of the run at 0.02 s",
      "expected an earlier start"},
     {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\noutput: {plots: false}\n"

@@ -108,6 +108,20 @@ static void lines_elsewhere_are_doubted(void **state)
     sea_free(&c);
 }
 
+/* Velocities in cm/s are a hundred times too high. */
+static void fast_water_is_doubted(void **state)
+{
+    (void)state;
+    sea_case c;
+    sea_make(&c, SEA_FLAT, "source: table, file: table.csv", "t,eta,u\n0,0,0\n10,0.2,60\n20,0,0\n");
+    assert_non_null(sb_sea_warning(c.sea));
+    assert_non_null(strstr(sb_sea_warning(c.sea), "up to 60 m/s, 17 times as fast as long waves"));
+    sea_free(&c);
+    sea_make(&c, SEA_FLAT, "source: table, file: table.csv", "t,eta,u\n0,0,0\n10,0.2,6\n20,0,0\n");
+    assert_null(sb_sea_warning(c.sea));
+    sea_free(&c);
+}
+
 static void without_a_header_and_with_comments(void **state)
 {
     (void)state;
@@ -288,6 +302,7 @@ int main(void)
         cmocka_unit_test(several_points_along_a_side),
         cmocka_unit_test(a_place_is_the_zero_of_the_scene),
         cmocka_unit_test(lines_elsewhere_are_doubted),
+        cmocka_unit_test(fast_water_is_doubted),
         cmocka_unit_test(without_a_header_and_with_comments),
         cmocka_unit_test(ends_of_lines_and_blanks),
         cmocka_unit_test(units_of_a_header),
