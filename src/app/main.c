@@ -1,5 +1,5 @@
 /* shorebreak: tsunami waves striking coastal plants, by implicit incompressible SPH. */
-#include "app/commands.h"
+#include "app/commands/commands.h"
 #include "base/memory.h"
 #include "base/nearest.h"
 #include "base/status.h"

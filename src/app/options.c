@@ -1,6 +1,6 @@
 #include "app/options.h"
 
-#include "app/team.h"
+#include "app/check/team.h"
 #include "base/memory.h"
 #include "base/nearest.h"
 #include "surface/make.h"

@@ -1,5 +1,5 @@
 /* A consumer without progress is abandoned; a slow one is waited for. */
-#include "app/consumer.h"
+#include "app/frames/consumer.h"
 
 #include "../check.h"
 #include "base/clock.h"

@@ -2,7 +2,7 @@
    scene and frames that are accepted are turned into those of a renderer. */
 #include "fuzz.h"
 
-#include "app/log_scene.h"
+#include "app/frames/log_scene.h"
 #include "scene/name.h"
 #include "stream/log.h"
 

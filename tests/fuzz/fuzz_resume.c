@@ -2,9 +2,9 @@
    counters, the positions in the tables, the particle files so far, and the state. An input that begins with 'e' is a
    sequence of edits to a valid checkpoint of a step, one that begins with 's' to a valid checkpoint of the settling.
    Any other input is the file itself. Each input is loaded as it is, and again with corrected checksums. */
-#include "app/checkpoint.h"
-#include "app/checkpoint_parts.h"
-#include "app/run.h"
+#include "app/checkpoint/checkpoint.h"
+#include "app/checkpoint/parts.h"
+#include "app/run/run.h"
 #include "base/memory.h"
 #include "fuzz.h"
 

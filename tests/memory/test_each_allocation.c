@@ -2,7 +2,7 @@
    tested; all of them if SB_EACH_ALLOCATION is "all". */
 #include "../check.h"
 
-#include "app/run.h"
+#include "app/run/run.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "render/renderer.h"

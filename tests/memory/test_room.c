@@ -1,7 +1,7 @@
 /* A scene that needs more memory than is available fails before it starts, with an error that states both amounts. */
 #include "../check.h"
 
-#include "app/room.h"
+#include "app/check/room.h"
 #include "base/memory.h"
 
 #include <stdio.h>

@@ -1,0 +1,177 @@
+#include "app/check/reflections.h"
+
+#include "base/memory.h"
+#include "physics/cnoidal.h"
+#include "physics/reflection.h"
+#include "physics/steady_wave.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Gauges may not tell free from bound waves: in shallow water both have the same speed. */
+static void warn_of_bound(const sb_reflection_set *set, const double *places, int harmonic, double number, double first,
+                          sb_warning_visit *visit, void *context)
+{
+    char text[500];
+    const double separation = sb_split_bound_separation(places, set->gauge_count, number, harmonic * first);
+    if (separation >= SB_SEPARATION_TRUSTED) return;
+    snprintf(
+        text, sizeof text,
+        "measure.reflections %s: at these gauges free waves of the period %.4g s, which are %.4g m long, and bound "
+        "ones of %.4g m can hardly be told apart (separation %.2g): expected 0.05 or more, by gauges over a longer "
+        "distance, other distances, fewer harmonics or bound: false",
+        set->name, set->period / harmonic, 2 * M_PI / number, 2 * M_PI / (harmonic * first), separation);
+    visit(context, text);
+}
+
+/* A window that the run does not fill has no row. */
+static void warn_of_window(const sb_scene *scene, const sb_reflection_set *set, sb_warning_visit *visit, void *context)
+{
+    char text[300];
+    const double end = set->start + set->window;
+    if (end <= scene->duration * (1 + 1e-9)) return;
+    snprintf(text, sizeof text,
+             "measure.reflections %s: its first window ends at %g s, after the end of the run at %g s: reflections.csv "
+             "has no row of it; expected an earlier start, a shorter window or a longer duration",
+             set->name, end, scene->duration);
+    visit(context, text);
+}
+
+/* Length of regular waves in a closed flume, m, and its relative error. */
+typedef struct own_length {
+    double length, error; /* length NaN: not known */
+} own_length;
+
+/* Cnoidal theory has waves that are too long and high for the series of the steady wave. */
+static own_length length_of(const sb_wavemaker_parameters *law, double depth)
+{
+    sb_steady_wave wave;
+    sb_cnoidal cnoidal;
+    if (sb_steady_wave_of(law->height, law->period, depth, law->gravity, &wave))
+        return (own_length){wave.length, 0.005};
+    const bool found = sb_cnoidal_of_period(law->height, law->period, depth, law->gravity, &cnoidal, NULL) == SB_OK;
+    return (own_length){found ? cnoidal.length : (double)NAN, 0.04};
+}
+
+/* Waves of a wave maker that are longer or shorter than the split takes them for seem to be reflected. */
+static void warn_of_length(const sb_scene *scene, const sb_reflection_set *set, sb_warning_visit *visit, void *context)
+{
+    static const double enough = 0.005;
+    char text[400];
+    for (size_t w = 0; w < scene->wavemaker_count; w++) {
+        const sb_wavemaker_parameters *law = &scene->wavemakers[w].law;
+        const double length = 2 * M_PI / sb_reflection_number(scene, set, 1);
+        if (strcmp(law->kind->name, "regular") != 0 || fabs(law->period / set->period - 1) > enough) continue;
+        const own_length own = length_of(law, set->depth);
+        if (!(fabs(length / own.length - 1) > own.error)) continue;
+        snprintf(
+            text, sizeof text,
+            "measure.reflections %s: waves of \"%s\" are about %.4g m long in a closed flume of this depth, and the "
+            "split "
+            "has %.4g m: it takes a part of them for waves that come back, beside those that do; expected wavelength: "
+            "%.4g",
+            set->name, scene->wavemakers[w].name, own.length, length, own.length);
+        visit(context, text);
+        return;
+    }
+}
+
+/* What makes the regular waves of a scene, as messages name it, and their period, s. */
+typedef struct regular_waves {
+    const char *maker, *name;
+    double period; /* 0: there are none, or several */
+} regular_waves;
+
+static void note(regular_waves *found, bool *several, const char *maker, const char *name, double period)
+{
+    *several |= found->period > 0;
+    *found = (regular_waves){maker, name, period};
+}
+
+static regular_waves regular_of(const sb_scene *scene)
+{
+    regular_waves found = {0};
+    bool several = false;
+    for (size_t w = 0; w < scene->wavemaker_count; w++)
+        if (strcmp(scene->wavemakers[w].law.kind->name, "regular") == 0)
+            note(&found, &several, "", scene->wavemakers[w].name, scene->wavemakers[w].law.period);
+    if (scene->given.source == SB_GIVEN_THEORY && scene->given.wave == SB_GIVEN_REGULAR)
+        note(&found, &several, "block ", "sea", scene->given.period);
+    if (scene->wave.kind == SB_INITIAL_REGULAR)
+        note(&found, &several, "block ", "water.wave", scene->wave.wavelength / scene->wave.stokes.celerity);
+    return several ? (regular_waves){0} : found;
+}
+
+void sb_period_warning(const sb_scene *scene, const char *what, double period, sb_warning_visit *visit, void *context)
+{
+    char text[300];
+    const regular_waves waves = regular_of(scene);
+    const double ratio = waves.period > 0 ? period / waves.period : 1;
+    if (!(period > 0) || (ratio > 0.5 && fabs(ratio - round(ratio)) < 0.005 * ratio)) return;
+    snprintf(text, sizeof text,
+             "%s: %g s is not the period of the waves of %s\"%s\", %.5g s, so that its harmonics are not theirs; "
+             "expected that period",
+             what, period, waves.maker, waves.name, waves.period);
+    visit(context, text);
+}
+
+/* The waves of a set that is given against their direction are called reflected. */
+static void warn_of_order(const sb_scene *scene, const sb_reflection_set *set, sb_warning_visit *visit, void *context)
+{
+    const sb_gauge *first = &scene->measure.gauges[sb_scene_gauge(scene, set->gauges[0].name)];
+    const sb_gauge *last = &scene->measure.gauges[sb_scene_gauge(scene, set->gauges[set->gauge_count - 1].name)];
+    const sb_vec3 line = sb_vec(last->x - first->x, last->y - first->y, 0);
+    const char *against = NULL;
+    char text[300];
+    if (scene->wave.kind != SB_INITIAL_NONE || sb_scene_has_sea(scene)) return; /* other waves */
+    for (size_t w = 0; w < scene->wavemaker_count; w++) {
+        const sb_wavemaker_use *maker = &scene->wavemakers[w];
+        const bool waves = maker->law.kind->needs & (SB_WM_HEIGHT | SB_WM_TRAIN);
+        if (!waves || strcmp(maker->law.kind->name, "absorber") == 0) continue;
+        if (!(sb_dot(maker->direction, line) < -0.7 * sb_norm(line))) return;
+        against = maker->name;
+    }
+    if (!against) return;
+    snprintf(
+        text, sizeof text,
+        "measure.reflections %s: its gauges run against the waves of \"%s\", which it will call reflected; expected "
+        "the gauges in the order in which the waves come to them",
+        set->name, against);
+    visit(context, text);
+}
+
+/* Gauges near multiples of half a wavelength apart cannot tell incident from reflected waves. */
+sb_status sb_reflection_warnings(const sb_scene *scene, sb_warning_visit *visit, void *context, sb_error *error)
+{
+    for (size_t r = 0; r < scene->measure.reflection_count; r++) {
+        const sb_reflection_set *set = &scene->measure.reflections[r];
+        warn_of_window(scene, set, visit, context);
+        warn_of_order(scene, set, visit, context);
+        char what[SB_NAME_MAX + 40];
+        snprintf(what, sizeof what, "measure.reflections %s: period", set->name);
+        sb_period_warning(scene, what, set->period, visit, context);
+        warn_of_length(scene, set, visit, context);
+        double *places = sb_alloc(set->gauge_count, sizeof *places);
+        if (!places) return sb_fail_memory(error, "gauges of reflections");
+        for (size_t i = 0; i < set->gauge_count; i++) places[i] = sb_reflection_place(scene, set, i);
+        const double first = sb_reflection_number(scene, set, 1);
+        for (int h = 1; h <= set->harmonics; h++) {
+            const double number = sb_reflection_number(scene, set, h);
+            char text[400];
+            if (set->bound && h > 1) {
+                warn_of_bound(set, places, h, number, first, visit, context);
+                continue;
+            }
+            if (sb_split_separation(places, set->gauge_count, number) >= SB_SEPARATION_TRUSTED) continue;
+            snprintf(
+                text, sizeof text,
+                "measure.reflections %s: all gauges lie near multiples of half the wavelength of %.4g m (period %.4g "
+                "s): incident and reflected waves cannot be told apart, expected other distances",
+                set->name, 2 * M_PI / number, set->period / h);
+            visit(context, text);
+        }
+        sb_free(places);
+    }
+    return SB_OK;
+}
