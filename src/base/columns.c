@@ -8,7 +8,7 @@
 
 bool sb_columns_header(const char *line, size_t length)
 {
-    static const char separators[] = " \t\r,;";
+    static const char separators[] = " \t\r,;\"";
     size_t words = 0;
     for (size_t at = 0; at < length;) {
         char word[64] = "", *after;

@@ -5,8 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Returns whether the line names the columns: it contains words, and none of them is a number. Blanks, commas and
-   semicolons separate words. */
+/* Returns whether the line names the columns: it contains words, and none of them is a number. Blanks, commas,
+   semicolons and quotes separate words. */
 bool sb_columns_header(const char *line, size_t length);
 
 /* Returns the first unit in such a line that is none of metres, seconds and degrees ("mm", "cm", "km", "ft", "ms",

@@ -42,6 +42,16 @@ static sb_status check_header(const reading *r, const sb_rows *rows, const char 
                    rows->path, rows->line, column > 0 ? column : named, column > 0 ? "unit" : "name", r->expected);
 }
 
+/* Removes blanks and one separator at the end, which begin no cell. */
+static void cut_end(char *line)
+{
+    static const char blanks[] = " \t\r";
+    size_t length = strlen(line);
+    while (length > 0 && strchr(blanks, line[length - 1])) length--;
+    if (length > 0 && strchr(",;", line[length - 1])) length--;
+    line[length] = '\0';
+}
+
 /* Reads a line. A comment is no row. */
 static sb_status read_line(reading *r, sb_rows *rows, char *line, sb_error *error)
 {
@@ -51,9 +61,8 @@ static sb_status read_line(reading *r, sb_rows *rows, char *line, sb_error *erro
     const bool first = !r->begun;
     r->begun = true;
     if (first && sb_columns_header(line, strlen(line))) return check_header(r, rows, line, error);
+    cut_end(line);
     sb_status status = sb_rows_cut(rows, line, error);
-    if (rows->cell_count == r->columns + 1 && !*rows->cells[r->columns])
-        rows->cell_count--; /* a separator at the end */
     if (status == SB_OK && rows->cell_count != r->columns)
         status = sb_fail(error, SB_BAD_INPUT, "%.500s:%zu: has %zu value%s, expected %zu: \"%s\"", rows->path,
                          rows->line, rows->cell_count, rows->cell_count == 1 ? "" : "s", r->columns, r->expected);

@@ -1,10 +1,10 @@
 /* Given water from the record of an earlier run: surface and velocities over depth along a plane, of which only what
    comes in is replayed. */
 #include "base/memory.h"
+#include "base/rows.h"
 #include "scene/record_columns.h"
 #include "sea/line_check.h"
 #include "sea/parts.h"
-#include "base/rows.h"
 
 #include <math.h>
 #include <stdio.h>

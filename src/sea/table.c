@@ -76,7 +76,7 @@ static void doubt_speed(const table *sea, const sb_scene *scene, char *text, siz
 {
     const double depth = greatest_surface(sea) - scene->domain.min.z, speed = greatest_speed(sea);
     const double waves = sqrt(scene->fluid.gravity * fmax(depth, 0));
-    if (*text || !(speed > FAST * waves)) return;
+    if (*text || !(waves > 0) || !(speed > FAST * waves)) return;
     snprintf(text, size,
              "sea.file: its velocities are up to %.3g m/s, %.2g times as fast as long waves in its water: are their "
              "units m/s?",

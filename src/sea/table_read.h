@@ -2,9 +2,9 @@
 #ifndef SB_SEA_TABLE_READ_H
 #define SB_SEA_TABLE_READ_H
 
+#include "base/rows.h"
 #include "scene/scene.h"
 #include "sea/line.h"
-#include "base/rows.h"
 
 /* Channels of a table: surface above its datum in m, velocities in m/s. */
 enum { SB_TABLE_ETA, SB_TABLE_U, SB_TABLE_V, SB_TABLE_CHANNELS };

@@ -353,6 +353,8 @@ static void file_reads_headers_and_commas(void **state)
         "time s x m\n0 0\n1 0.5\n",
         "\"time (s)\",\"displacement (m)\"\n0,0\n1,0.5,\n",
         "# flume 2\n\nTime_s\tX_m\n0\t0\n1\t0.5\n",
+        "\"0\",\"0\"\n\"1\",\"0.5\"\n",
+        "0 0,\n1 0.5, # the end\n",
     };
     sb_wavemaker_parameters parameters = good_parameters(sb_wavemaker_find("file"));
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
