@@ -12,6 +12,9 @@ static const double ENOUGH = 1e-11;
 /* The height grows from 0 by at most the longest of these shares, and by shorter ones where Newton's method fails. */
 static const double LONGEST = 1.0 / 12, SHORTEST = 1.0 / 400;
 
+/* kd of water whose bed no wave feels; height over depth whose equations are as small as ENOUGH. */
+static const double DEEP = 100, LOWEST = 1e-8;
+
 /* Share of the height that the last harmonic may have: a wave with more has others that the points do not show. */
 static const double TAIL = 1e-4;
 
@@ -210,8 +213,10 @@ bool sb_steady_wave_of(double height, double period, double depth, double gravit
 {
     static const int points[] = {FEW, MANY};
     double x[MOST_UNKNOWNS];
+    if (!(height > 0 && period > 0 && depth > 0)) return false;
+    depth = fmin(depth, DEEP / sb_wave_number(period, depth, gravity));
+    if (!(height > LOWEST * depth && height <= SB_SOLITARY_HIGHEST * depth)) return false;
     const double unit = sqrt(depth / gravity);
-    if (!(height > 0 && period > 0 && depth > 0 && height <= SB_SOLITARY_HIGHEST * depth)) return false;
     for (int i = 0; i < 2; i++) {
         problem p = problem_of(points[i], height / depth, period / unit);
         if (!follow(&p, x, &wave->residual)) continue;

@@ -15,8 +15,9 @@ typedef struct sb_steady_wave {
     double residual; /* largest error of the equations, in units of depth and gravity */
 } sb_steady_wave;
 
-/* False: there is no such wave, or it is too near to breaking (97 % of the highest) or too long and high to be found:
-   above H/d = 0.57, 0.32, 0.19, 0.09 at kd = 0.17, 0.13, 0.1, 0.07. */
+/* False: there is no such wave, or it is too near to breaking to be found (above 93 to 98 % of the highest, at kd 0.25
+   86 %), or too long and high (above H/d = 0.57, 0.32, 0.19, 0.09 at kd = 0.17, 0.13, 0.1, 0.07), or below 1e-8 of the
+   depth. Water deeper than kd = 100 counts as that deep. */
 bool sb_steady_wave_of(double height, double period, double depth, double gravity, sb_steady_wave *wave);
 
 #endif

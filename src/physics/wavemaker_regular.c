@@ -26,15 +26,34 @@ static sb_status find_wave(const sb_wavemaker_parameters *p, sb_regular_wave *wa
 /* kd beyond which water is deep for a steady wave, too. */
 static const double DEEP = 10;
 
+/* Finds the steady wave of the height, or the highest one below it, and returns the share of the height that it has.
+   0: none from 0.7 of the height on. */
+static double find_steady(const sb_regular_wave *wave, sb_steady_wave *steady)
+{
+    enum { HALVINGS = 6 };
+    const double depth = fmin(wave->depth, DEEP / wave->number);
+    double low = 0.7, high = 1;
+    sb_steady_wave tried;
+    if (sb_steady_wave_of(wave->height, wave->period, depth, wave->gravity, steady)) return 1;
+    if (!sb_steady_wave_of(low * wave->height, wave->period, depth, wave->gravity, steady)) return 0;
+    for (int i = 0; i < HALVINGS; i++) {
+        const double share = 0.5 * (low + high);
+        const bool found = sb_steady_wave_of(share * wave->height, wave->period, depth, wave->gravity, &tried);
+        if (found) *steady = tried;
+        *(found ? &low : &high) = share;
+    }
+    return low;
+}
+
 /* A steady wave of the height H has a first harmonic below H/2. Returns the amplitude of linear theory for which the
-   piston makes it; where there is no steady wave, or it is too long and low to be found: H/2. */
+   piston makes it; near breaking the harmonic has the same share of H as that of the highest wave that is found. Where
+   there is none: H/2. */
 static double linear_amplitude(const sb_regular_wave *wave, bool *steep)
 {
-    const double depth = fmin(wave->depth, DEEP / wave->number);
     sb_steady_wave steady;
-    const bool found = sb_steady_wave_of(wave->height, wave->period, depth, wave->gravity, &steady);
-    if (!found) return 0.5 * wave->height;
-    return sb_paddle_third_amplitude(steady.first, wave->number, wave->depth, steep);
+    const double share = find_steady(wave, &steady);
+    if (!(share > 0)) return 0.5 * wave->height;
+    return sb_paddle_third_amplitude(steady.first / share, wave->number, wave->depth, steep);
 }
 
 static void set_second_order(sb_wave_train *train, const sb_regular_wave *wave)
