@@ -265,7 +265,7 @@ static double figure(const char *json, const char *name)
 /* Mean periods of a JONSWAP spectrum with gamma 3.3: T_m-1,0 is 0.906, T_m02 0.78 to 0.83 of the peak period, by the
    band of frequencies. The rate is 0.047 exp(-(2.35 R/H)^1.3) sqrt(g H^3) with R 0.4 m. A wave of 0.15 m and 1 s on 1 m
    is 1.658 m long in a closed flume. */
-static void check_tells_waves_and_rates(void **state)
+static void check_shows_waves_and_rates(void **state)
 {
     (void)state;
 #define PADDLE(law)                                                                                                    \
@@ -493,7 +493,7 @@ int main(void)
         cmocka_unit_test(check_prints_reflections),
         cmocka_unit_test(check_in_json),
         cmocka_unit_test(check_knows_the_viscosity_of_the_run),
-        cmocka_unit_test(check_tells_waves_and_rates),
+        cmocka_unit_test(check_shows_waves_and_rates),
         cmocka_unit_test(a_lost_result_is_an_error),
         cmocka_unit_test(a_doubtful_scene_gives_a_warning),
         cmocka_unit_test(check_counts_neighbours_as_memory),

@@ -165,12 +165,12 @@ static const struct {
               "wavelength: 0.8}]"),
      "water.wave.components[1]: its wavelength of 0.8 m is 16 times the particle spacing: such waves fade soon",
      "expected 20 times or more"},
-    {GIVEN(SUM("{amplitude: 0.13, period: 6}"), ""), "sea.components: the waves are linear, but H L^2/d^3 = 3",
+    {GIVEN(SUM("{amplitude: 0.13, period: 6}"), ""), "sea.components: the waves are linear, but H L^2/d^3 = 360.",
      "expected lower or shorter waves"},
     {PERIODIC("kind: components, depth: 0.5, components: [{amplitude: 0.13, wavelength: 4}]"),
-     "water.wave.components: the waves are linear, but H L^2/d^3 = 33.", "or deeper water"},
+     "water.wave.components: the waves are linear, but H L^2/d^3 = 33.28 is above 26.3", "or deeper water"},
     {PERIODIC("kind: regular, order: linear, depth: 0.5, height: 0.25, wavelength: 4"),
-     "water.wave.order: the waves are linear, but H L^2/d^3 = 32", "or deeper water"},
+     "water.wave.order: the waves are linear, but H L^2/d^3 = 32 is above 26.3", "or deeper water"},
     {TANK "domain: {min: [0, 0], max: [3, 0.8]}\nwater: {level: 0.5, seed: [1, 0.2], wave: {kind: standing, height: "
           "0.15, depth: 0.5, wavelength: 4}}\n",
      "water.wave: the water reaches from x = 0 to 3 m, and a standing wave with a crest at x = 0 m",
@@ -200,7 +200,7 @@ static const struct {
     {FLUME(WAVES, "", ", planes: [{name: p, from: [5], z_min: 1.2, eurotop: {height: 0.02, slope: 0.4, period: 9}}]"),
      "measure.planes p: eurotop: the breaker parameter of 31.8", "expected below 7"},
     {FLUME(WAVES, "", ", planes: [{name: p, from: [5], z_min: 1.2, eurotop: {height: 0.1}}]"),
-     "measure.planes p: eurotop: its formulas are for irregular waves", "expected kind: irregular"},
+     "measure.planes p: eurotop: its formulas are for irregular waves", "expected irregular waves"},
     {FLUME(WAVES, "", ", waves: {start: 3}"), "measure.waves.start: 3 s is not before the end of the run at 0.02 s",
      "expected an earlier start"},
     {"title: t\ndimensions: 2\nresolution: 0.05\nduration: 0.02\noutput: {plots: false}\n"
@@ -262,7 +262,7 @@ static const struct {
      "domain: {min: [-1, 0, 0], max: [2, 2, 1]}\nwater: {level: 0.5, seed: [1, 1.5, 0.2]}\n"
      "bodies: [{name: paddle, shape: box, min: [-0.5, 0, 0], max: [0, 1, 0.9]}]\n"
      "wavemakers: [{name: w, body: paddle, kind: regular, height: 0.05, depth: 0.5, period: 1.5}]\n",
-     "wave maker \"w\": the water ahead of its face of 1 m is 2 m wide", "expected a body as wide as the water"},
+     "wave maker \"w\": there is water beside its face, which is 1 m wide", "expected a body as wide as the water"},
     {FLUME("kind: focused, height: 0.1, period: 2.3, distance: 8, focus: 20", BEACH "length: 4, depth: 1}", ""),
      "wave maker \"w\": its distance of 8 m is in the sponge \"beach\", which begins 6 m ahead",
      "expected a shorter distance or a shorter sponge"},

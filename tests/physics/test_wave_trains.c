@@ -187,8 +187,8 @@ static void steep_waves_are_told(void **state)
     }
 }
 
-/* The highest steady waves by the Fourier series, which goes up to 97 % of them, are below the limit and near it; very
-   long ones break as the highest solitary wave. */
+/* The highest steady waves by the Fourier series, which ends a few per cent below them, are below the limit and near
+   it; very long ones break as the highest solitary wave. */
 static void waves_break_as_the_highest_steady_waves(void **state)
 {
     (void)state;

@@ -94,10 +94,11 @@ static void warn_of_regular(const sb_scene *scene, const sb_flow_plane *plane, s
         if (strcmp(kind, "irregular") == 0 || strcmp(kind, "components") == 0) return;
         if (strcmp(kind, "regular") == 0) maker = scene->wavemakers[w].name;
     }
+    if (scene->given.source == SB_GIVEN_THEORY && scene->given.wave == SB_GIVEN_REGULAR) maker = "sea";
     if (!(plane->eurotop.height > 0) || !maker) return;
     snprintf(text, sizeof text,
              "measure.planes %s: eurotop: its formulas are for irregular waves, and those of \"%s\" are regular: the "
-             "rates will differ by a factor; expected kind: irregular",
+             "rates will differ by a factor; expected irregular waves",
              plane->name, maker);
     visit(context, text);
 }

@@ -68,9 +68,8 @@ static void warn_of_length(const sb_scene *scene, const sb_reflection_set *set, 
         snprintf(
             text, sizeof text,
             "measure.reflections %s: waves of \"%s\" are about %.4g m long in a closed flume of this depth, and the "
-            "split "
-            "has %.4g m: it takes a part of them for waves that come back, beside those that do; expected wavelength: "
-            "%.4g",
+            "split has %.4g m: it takes a part of them for waves that come back, beside those that do; expected "
+            "wavelength: %.4g",
             set->name, scene->wavemakers[w].name, own.length, length, own.length);
         visit(context, text);
         return;

@@ -13,7 +13,6 @@
 #include <math.h>
 #include <stdio.h>
 
-/* The times are in increasing order: the last one decides. */
 /* Values of other units than those of the keys: g/cm^3, cm/s^2 and Pa s are the usual ones. */
 static void warn_of_fluid(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
@@ -35,6 +34,7 @@ static void warn_of_fluid(const sb_scene *scene, sb_warning_visit *visit, void *
     }
 }
 
+/* The times are in increasing order: the last one decides. */
 static void warn_of_stills(const sb_scene *scene, sb_warning_visit *visit, void *context)
 {
     const sb_render_settings *render = &scene->render;

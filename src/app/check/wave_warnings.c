@@ -123,7 +123,7 @@ static void warn_of_long_waves(const sb_wavemaker_use *maker, const sb_paddle *p
     visit(context, text);
 }
 
-/* Relative error of the length from which a wave of cnoidal theory is told to differ from the steady wave. */
+/* Relative error of the length from which a wave of cnoidal theory counts as another than the steady wave. */
 static const double CNOIDAL_ERROR = 0.01;
 
 /* High waves of middle depth are beyond second-order theory, and still too short for cnoidal theory. */

@@ -118,8 +118,8 @@ static void print_absorption(const sb_scene *scene, const sb_wavemaker_use *make
            maker->law.reach, facts->period, sb_per_cent(predicted.peak, text), more, 1 / facts->slow);
 }
 
-/* Length of the steady wave of the same height and period in a closed flume, m: what a gauge sees of high waves, which
-   are longer than linear ones. NaN: no regular waves, or not known. */
+/* Length of the steady wave of the same height and period in a closed flume, m: what gauges measure of high waves,
+   which are longer than linear ones. NaN: no regular waves, or not known. */
 static double steady_length(const sb_scene *scene, const sb_wavemaker_use *maker, const sb_wave_facts *f)
 {
     sb_steady_wave wave;

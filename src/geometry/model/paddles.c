@@ -8,9 +8,6 @@
 /* In spacings: distance from a face within which its water is looked for. */
 static const double NEAR = 3;
 
-/* In spacings: water beside a face within which it is as wide as the water. */
-static const double BESIDE = 2;
-
 /* Share of its face that an undivided absorbing paddle needs in water: reflected is (1 - WIDE)/(1 + WIDE), 2.5 %. */
 static const double WIDE = 0.95;
 
@@ -38,7 +35,9 @@ typedef struct sides {
     extent paddle;
     double near;
     bool ahead, behind;
-    extent water; /* of the water ahead, along `across` */
+    extent water;      /* of the water ahead, along `across` */
+    extent face;       /* of the paddle, along `across` */
+    bool below, above; /* whether water ahead is just below and above the ends of the face, along `across` */
 } sides;
 
 static void find_sides(void *context, const sb_water_piece *piece)
@@ -50,6 +49,8 @@ static void find_sides(void *context, const sb_water_piece *piece)
         if (!(at >= s->paddle.front && at <= s->paddle.front + s->near)) continue;
         s->ahead = true;
         s->water = (extent){fmin(s->water.back, place), fmax(s->water.front, place)};
+        s->below = s->below || (place < s->face.back - s->near / NEAR && place > s->face.back - s->near);
+        s->above = s->above || (place > s->face.front + s->near / NEAR && place < s->face.front + s->near);
     }
 }
 
@@ -68,24 +69,40 @@ static sb_status check_facing(const sb_scene *scene, size_t maker, const sides *
                    scene->path ? scene->path : "the scene", maker, scene->wavemakers[maker].name, towards);
 }
 
-/* Water beside a face does not go with it. An undivided paddle absorbs by the mean surface over its face, where it is
-   within the domain; push-plates without water do not absorb. */
+/* Whether a neighbouring paddle of the same direction moves the water at this place across. */
+static bool has_neighbour(const sb_scene *scene, const sb_model *model, size_t maker, sb_vec3 across, double place)
+{
+    for (size_t w = 0; w < scene->wavemaker_count; w++) {
+        const extent other = extent_of(model, w, across);
+        if (w == maker || sb_dot(scene->wavemakers[w].direction, scene->wavemakers[maker].direction) < 0.9) continue;
+        if (place > other.back && place < other.front) return true;
+    }
+    return false;
+}
+
+/* Water beside a face does not go with it. */
+static sb_status check_ends(const sb_scene *scene, size_t maker, const sides *s, sb_model *model, sb_error *error)
+{
+    const bool below = s->below && !has_neighbour(scene, model, maker, s->across, s->face.back - 0.5 * s->near);
+    const bool above = s->above && !has_neighbour(scene, model, maker, s->across, s->face.front + 0.5 * s->near);
+    if (scene->dimensions == 2 || (!below && !above)) return SB_OK;
+    return sb_model_warn(
+        model, error,
+        "wave maker \"%s\": there is water beside its face, which is %.3g m wide: it passes beside the "
+        "paddle, and the waves spread and come out lower; expected a body as wide as the water",
+        scene->wavemakers[maker].name, s->face.front - s->face.back);
+}
+
+/* An undivided paddle absorbs by the mean surface over its face, where it is within the domain; push-plates without
+   water do not absorb. */
 static sb_status check_width(const sb_scene *scene, size_t maker, const sides *s, sb_model *model, sb_error *error)
 {
     const sb_wavemaker_use *use = &scene->wavemakers[maker];
-    const extent face = extent_of(model, maker, s->across);
-    const double low = -sb_domain_end(&scene->domain, sb_scale(s->across, -1));
-    const double high = sb_domain_end(&scene->domain, s->across), half = 0.5 * model->spacing;
-    const double from = fmax(face.back, low), to = fmin(face.front, high);
-    const extent wet = {fmax(low, s->water.back - half), fmin(high, s->water.front + half)};
-    const double wide = wet.front - wet.back, water = fmin(to, wet.front) - fmax(from, wet.back);
-    if (scene->dimensions == 2 || !s->ahead) return SB_OK;
-    if (wide > to - from + BESIDE * model->spacing)
-        return sb_model_warn(model, error,
-                             "wave maker \"%s\": the water ahead of its face of %.3g m is %.3g m wide: water passes "
-                             "beside it, and the waves spread and come out lower; expected a body as wide as the water",
-                             use->name, to - from, wide);
-    if (!use->law.absorb || water > WIDE * (to - from)) return SB_OK;
+    const double half = 0.5 * model->spacing;
+    const double from = fmax(s->face.back, -sb_domain_end(&scene->domain, sb_scale(s->across, -1)));
+    const double to = fmin(s->face.front, sb_domain_end(&scene->domain, s->across));
+    const double water = fmin(to, s->water.front + half) - fmax(from, s->water.back - half);
+    if (scene->dimensions == 2 || !use->law.absorb || !s->ahead || water > WIDE * (to - from)) return SB_OK;
     if (use->plates.width > 0)
         return sb_model_warn(model, error,
                              "wave maker \"%s\": of its face of %.3g m, %.3g m have water ahead: push-plates without "
@@ -176,8 +193,10 @@ sb_status sb_model_check_paddles(const sb_scene *scene, const sb_model_space *sp
                    .paddle = paddle,
                    .near = NEAR * model->spacing,
                    .water = {(double)INFINITY, -(double)INFINITY}};
+        s.face = extent_of(model, w, s.across);
         status = sb_model_visit_water(space, model, find_sides, &s, error);
         if (status == SB_OK) status = check_facing(scene, w, &s, error);
+        if (status == SB_OK) status = check_ends(scene, w, &s, model, error);
         if (status == SB_OK) status = check_width(scene, w, &s, model, error);
         if (status == SB_OK) status = check_travel(scene, use, paddle, model, error);
         if (status == SB_OK) status = check_distance(scene, use, paddle, model, error);
