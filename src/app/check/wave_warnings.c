@@ -126,6 +126,9 @@ static void warn_of_long_waves(const sb_wavemaker_use *maker, const sb_paddle *p
 /* Relative error of the length from which a wave of cnoidal theory counts as another than the steady wave. */
 static const double CNOIDAL_ERROR = 0.01;
 
+/* kd from which that error says that a wave is too short; below it, that it is high. */
+static const double MIDDLE = 0.5;
+
 /* High waves of middle depth are beyond second-order theory, and still too short for cnoidal theory. */
 static void warn_of_middle_waves(const sb_wavemaker_use *maker, sb_warning_visit *visit, void *context)
 {
@@ -136,7 +139,7 @@ static void warn_of_middle_waves(const sb_wavemaker_use *maker, sb_warning_visit
     if (!(law->kind->needs & SB_WM_THEORY) || law->theory != SB_WAVE_AUTO || law->motion != SB_PADDLE_PISTON) return;
     if (sb_regular_wave_create(law->theory, law->height, law->period, law->depth, law->gravity, &wave, NULL) != SB_OK)
         return;
-    if (wave.order != SB_WAVE_CNOIDAL || wave.number * law->depth < 0.5) return;
+    if (wave.order != SB_WAVE_CNOIDAL || wave.number * law->depth < MIDDLE) return;
     if (!sb_steady_wave_of(law->height, law->period, law->depth, law->gravity, &steady)) return;
     if (fabs(wave.length / steady.length - 1) < CNOIDAL_ERROR) return;
     snprintf(
