@@ -290,6 +290,10 @@ static void check_shows_waves_and_rates(void **state)
     assert_contains(o.out, "wave of w: solitary, goring");
     assert_contains(o.out, "H/d 0.3");
     outcome_free(&o);
+    o = RUN(0, "check", "solitary.yaml", "--json");
+    assert_near(figure(o.out, "height_over_depth"), 0.3, 1e-9);
+    assert_near(figure(o.out, "speed_m_s"), sqrt(9.81 * 1.3), 0.01);
+    outcome_free(&o);
 #undef PADDLE
 }
 

@@ -276,14 +276,35 @@ static void put_train(void *context, const sb_scene *scene, const sb_wavemaker_u
     sb_json_close(json);
 }
 
+static void put_solitary(void *context, const sb_scene *scene, const sb_wavemaker_use *maker, const sb_paddle *paddle)
+{
+    sb_json *json = context;
+    const sb_wavemaker_parameters *law = &maker->law;
+    sb_json_open(json, NULL, '{');
+    sb_json_text(json, "wavemaker", maker->name);
+    sb_json_text(json, "kind", law->kind->name);
+    sb_json_number(json, "height_m", law->height);
+    sb_json_number(json, "height_over_depth", law->height / law->depth);
+    sb_json_number(json, "speed_m_s", sb_paddle_celerity(law, paddle));
+    sb_json_number(json, "particles_per_height", law->height / scene->resolution);
+    sb_json_number(json, "travel_m", travel_of(scene, paddle));
+    sb_json_number(json, "duration_s", paddle->duration);
+    sb_json_close(json);
+}
+
+static void put_makers(const sb_scene *scene, bool solitary, const char *name, visit_train *put, sb_json *json)
+{
+    if (visit_makers(scene, solitary, NULL, NULL) == 0) return;
+    sb_json_open(json, name, '[');
+    visit_makers(scene, solitary, put, json);
+    sb_json_close(json);
+}
+
 void sb_check_waves_json(const sb_scene *scene, const sb_model *model, sb_json *json)
 {
     put_initial(scene, json);
-    if (visit_makers(scene, false, NULL, NULL) > 0) {
-        sb_json_open(json, "waves", '[');
-        visit_makers(scene, false, put_train, json);
-        sb_json_close(json);
-    }
+    put_makers(scene, true, "solitary_waves", put_solitary, json);
+    put_makers(scene, false, "waves", put_train, json);
     if (scene->sponge_count == 0) return;
     sb_json_open(json, "sponges", '[');
     for (size_t s = 0; s < scene->sponge_count; s++) {
