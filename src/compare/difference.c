@@ -1,7 +1,7 @@
 #include "compare/difference.h"
 
 #include "base/memory.h"
-#include "output/esri.h"
+#include "output/maps/esri.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 #include "compare/film.h"
 
-#include "output/video.h"
+#include "output/plots/video.h"
 #include "report/pictures.h"
 
 #include <math.h>

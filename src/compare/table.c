@@ -1,6 +1,6 @@
 #include "compare/table.h"
 
-#include "output/csv_tables.h"
+#include "output/tables/csv_tables.h"
 #include "report/html.h"
 
 #include <math.h>

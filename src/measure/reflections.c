@@ -2,7 +2,7 @@
    split at the end of a window. */
 #include "base/memory.h"
 #include "measure/state.h"
-#include "physics/reflection.h"
+#include "physics/records/reflection.h"
 
 static size_t sums_of(const sb_reflection_set *set)
 {

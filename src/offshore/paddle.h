@@ -3,7 +3,7 @@
 #define SB_OFFSHORE_PADDLE_H
 
 #include "offshore/state.h"
-#include "physics/wavemaker.h"
+#include "physics/wavemakers/wavemaker.h"
 
 typedef struct sb_offshore_paddle_options {
     sb_wavemaker_parameters law;

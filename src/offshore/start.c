@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "offshore/paddle.h"
-#include "physics/wave_theory.h"
+#include "physics/waves/wave_theory.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -2,10 +2,10 @@
 #ifndef SB_RENDER_COMPOSE_H
 #define SB_RENDER_COMPOSE_H
 
-#include "render/colormap.h"
-#include "render/occlusion.h"
-#include "render/scenery.h"
-#include "render/water.h"
+#include "render/bodies/occlusion.h"
+#include "render/bodies/scenery.h"
+#include "render/overlay/colormap.h"
+#include "render/water/water.h"
 
 enum { SB_COMPOSE_PASSES = 4 };
 

@@ -2,8 +2,8 @@
 #ifndef SB_RENDER_KINDS_H
 #define SB_RENDER_KINDS_H
 
-#include "render/camera.h"
-#include "render/splat.h"
+#include "render/camera/camera.h"
+#include "render/water/splat.h"
 
 /* The depths that stand for: only bodies and sky; water through which nothing is seen; a mixture. */
 #define SB_KIND_BEHIND 0.0f

@@ -2,16 +2,16 @@
 #include "render/renderer.h"
 
 #include "base/memory.h"
-#include "render/bounds.h"
-#include "render/captions.h"
+#include "render/bodies/face_loads.h"
+#include "render/camera/bounds.h"
 #include "render/compose.h"
-#include "render/context.h"
-#include "render/face_loads.h"
-#include "render/fields.h"
-#include "render/foam_texture.h"
+#include "render/foam/foam_texture.h"
+#include "render/gl/context.h"
+#include "render/image/soften.h"
 #include "render/kinds.h"
-#include "render/overhead.h"
-#include "render/soften.h"
+#include "render/overlay/captions.h"
+#include "render/water/fields.h"
+#include "render/water/overhead.h"
 
 enum { SCENERIES = 4 };
 

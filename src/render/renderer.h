@@ -4,8 +4,8 @@
 
 #include "frame/frame.h"
 #include "geometry/model/model.h"
-#include "render/image.h"
-#include "render/reached.h"
+#include "render/image/image.h"
+#include "render/water/reached.h"
 
 typedef struct sb_renderer sb_renderer;
 

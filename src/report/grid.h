@@ -2,7 +2,7 @@
 #ifndef SB_REPORT_GRID_H
 #define SB_REPORT_GRID_H
 
-#include "render/image.h"
+#include "render/image/image.h"
 
 #include <stddef.h>
 

@@ -1,6 +1,6 @@
 #include "report/html.h"
 
-#include "output/json.h"
+#include "output/log/json.h"
 
 #include <math.h>
 #include <stdarg.h>

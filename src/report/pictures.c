@@ -1,7 +1,7 @@
 #include "report/pictures.h"
 
 #include "base/memory.h"
-#include "render/image.h"
+#include "render/image/image.h"
 #include "report/html.h"
 
 #include <dirent.h>

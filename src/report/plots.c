@@ -1,7 +1,7 @@
 #include "report/plots.h"
 
 #include "base/memory.h"
-#include "output/json.h"
+#include "output/log/json.h"
 #include "report/html.h"
 #include "report/thin.h"
 

@@ -1,7 +1,7 @@
 #include "report/run.h"
 
 #include "base/memory.h"
-#include "output/csv_tables.h"
+#include "output/tables/csv_tables.h"
 
 #include <errno.h>
 #include <math.h>

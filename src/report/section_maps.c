@@ -2,7 +2,7 @@
 #include "report/sections.h"
 
 #include "base/memory.h"
-#include "output/maps.h"
+#include "output/maps/maps.h"
 #include "report/html.h"
 #include "report/map_figure.h"
 

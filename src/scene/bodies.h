@@ -2,8 +2,8 @@
 #ifndef SB_SCENE_BODIES_H
 #define SB_SCENE_BODIES_H
 
-#include "physics/sponge.h"
-#include "physics/wavemaker.h"
+#include "physics/absorption/sponge.h"
+#include "physics/wavemakers/wavemaker.h"
 #include "scene/domain.h"
 
 #include <stdbool.h>

@@ -1,6 +1,6 @@
 /* The wave on the water at the start. */
-#include "physics/breaking.h"
-#include "physics/dispersion.h"
+#include "physics/waves/breaking.h"
+#include "physics/waves/dispersion.h"
 #include "scene/reader.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 #ifndef SB_SCENE_NUMERICS_H
 #define SB_SCENE_NUMERICS_H
 
-#include "physics/kernel.h"
+#include "physics/kernels/kernel.h"
 
 #include <stdbool.h>
 #include <stdint.h>

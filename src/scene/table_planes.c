@@ -1,6 +1,6 @@
 #include "scene/table_planes.h"
 
-#include "physics/eurotop.h"
+#include "physics/records/eurotop.h"
 
 #include <math.h>
 

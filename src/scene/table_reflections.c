@@ -1,5 +1,5 @@
-#include "physics/dispersion.h"
-#include "physics/reflection.h"
+#include "physics/records/reflection.h"
+#include "physics/waves/dispersion.h"
 #include "scene/reader.h"
 
 #include <math.h>

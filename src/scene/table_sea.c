@@ -1,6 +1,6 @@
-#include "physics/breaking.h"
-#include "physics/dispersion.h"
-#include "physics/solitary_exact.h"
+#include "physics/waves/breaking.h"
+#include "physics/waves/dispersion.h"
+#include "physics/waves/solitary_exact.h"
 #include "scene/reader.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "physics/breaking.h"
+#include "physics/waves/breaking.h"
 #include "scene/reader.h"
 
 #include <math.h>

@@ -2,9 +2,9 @@
 #ifndef SB_SCENE_WATER_H
 #define SB_SCENE_WATER_H
 
-#include "physics/regular_wave.h"
-#include "physics/stokes.h"
-#include "physics/wave_theory.h"
+#include "physics/waves/regular_wave.h"
+#include "physics/waves/stokes.h"
+#include "physics/waves/wave_theory.h"
 #include "scene/domain.h"
 
 #include <stdbool.h>

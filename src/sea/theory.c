@@ -1,8 +1,8 @@
 /* Given water from wave theory. */
 #include "base/memory.h"
-#include "physics/regular_wave.h"
-#include "physics/solitary_exact.h"
-#include "physics/wave_sum.h"
+#include "physics/waves/regular_wave.h"
+#include "physics/waves/solitary_exact.h"
+#include "physics/waves/wave_sum.h"
 #include "sea/parts.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Answers other than streams. */
 #include "web/server_state.h"
 
-#include "output/json.h"
+#include "output/log/json.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 #include "web/history.h"
 
 #include "base/memory.h"
-#include "output/json.h"
+#include "output/log/json.h"
 
 #include <math.h>
 #include <string.h>

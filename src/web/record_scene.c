@@ -1,7 +1,7 @@
 /* The answer to GET /scene: a description in JSON, then the vertices and triangles of all bodies. */
 #include "web/records.h"
 
-#include "output/json.h"
+#include "output/log/json.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 #include "web/view.h"
 
 #include "base/memory.h"
-#include "output/json.h"
+#include "output/log/json.h"
 #include "web/records.h"
 
 #include <string.h>

@@ -4,8 +4,8 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "frame/frame.h"
-#include "output/pvd.h"
-#include "output/vtp.h"
+#include "output/particles/pvd.h"
+#include "output/particles/vtp.h"
 
 #include <dirent.h>
 #include <stdio.h>

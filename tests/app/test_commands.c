@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "control/message.h"
 #include "control/target.h"
-#include "output/particle_format.h"
+#include "output/particles/particle_format.h"
 #include "stream/listen.h"
 
 #include <signal.h>

@@ -4,7 +4,7 @@
 #include "../output/json_check.h"
 #include "base/memory.h"
 #include "frame/frame.h"
-#include "output/vtp.h"
+#include "output/particles/vtp.h"
 
 #include <stdio.h>
 #include <stdlib.h>

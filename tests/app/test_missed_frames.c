@@ -4,7 +4,7 @@
 #include "../output/json_check.h"
 #include "base/clock.h"
 #include "base/memory.h"
-#include "output/pvd.h"
+#include "output/particles/pvd.h"
 
 #include <signal.h>
 #include <stdio.h>

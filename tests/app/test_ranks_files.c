@@ -2,9 +2,9 @@
 #include "pair.h"
 
 #include "base/memory.h"
-#include "output/pvd.h"
-#include "output/pvtp.h"
-#include "output/vtp.h"
+#include "output/particles/pvd.h"
+#include "output/particles/pvtp.h"
+#include "output/particles/vtp.h"
 
 #include <stdio.h>
 #include <stdlib.h>

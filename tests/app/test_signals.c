@@ -6,8 +6,8 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "frame/frame.h"
-#include "output/pvd.h"
-#include "output/vtp.h"
+#include "output/particles/pvd.h"
+#include "output/particles/vtp.h"
 
 #include <signal.h>
 #include <stdio.h>

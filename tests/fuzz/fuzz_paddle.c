@@ -2,7 +2,7 @@
 #include "fuzz.h"
 
 #include "base/file.h"
-#include "physics/wavemaker.h"
+#include "physics/wavemakers/wavemaker.h"
 
 #include <math.h>
 #include <string.h>

@@ -6,9 +6,9 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "output/pvtp.h"
-#include "output/vti.h"
-#include "output/vtp.h"
+#include "output/maps/vti.h"
+#include "output/particles/pvtp.h"
+#include "output/particles/vtp.h"
 
 #include <math.h>
 #include <stdbool.h>

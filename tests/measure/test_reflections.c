@@ -2,7 +2,7 @@
 #include "../check.h"
 #include "base/memory.h"
 #include "fake_sim.h"
-#include "physics/dispersion.h"
+#include "physics/waves/dispersion.h"
 
 static const double period = 1.6, depth = 1;
 

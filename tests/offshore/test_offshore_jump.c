@@ -2,7 +2,7 @@
 #include "base/memory.h"
 #include "check.h"
 #include "offshore/offshore.h"
-#include "physics/wave_theory.h"
+#include "physics/waves/wave_theory.h"
 
 #include <math.h>
 

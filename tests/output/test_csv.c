@@ -1,9 +1,9 @@
 /* The tables: exact headers, rows, empty fields, names that need quotes, full disks. */
-#include "output/csv.h"
+#include "output/tables/csv.h"
 
 #include "folder.h"
-#include "output/hashed_file.h"
-#include "output/series.h"
+#include "output/tables/hashed_file.h"
+#include "output/tables/series.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

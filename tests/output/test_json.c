@@ -1,4 +1,4 @@
-#include "output/json.h"
+#include "output/log/json.h"
 
 #include "folder.h"
 #include "json_check.h"

@@ -1,8 +1,8 @@
 /* Mean rates of overtopping from the table of a run: per metre of the plane, from a time on, beside the formula. */
 #include "../check.h"
 #include "base/memory.h"
-#include "output/overtopping_rate.h"
-#include "physics/eurotop.h"
+#include "output/tables/overtopping_rate.h"
+#include "physics/records/eurotop.h"
 
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
 /* Every row of the table of particle formats: its names are its own, its files begin as the row says, and what it reads
    is what it wrote. */
-#include "output/particle_format.h"
+#include "output/particles/particle_format.h"
 
 #include "folder.h"
 

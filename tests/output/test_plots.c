@@ -1,9 +1,9 @@
 /* Plots from invented tables, and videos, if gnuplot and ffmpeg are installed. */
-#include "output/csv.h"
-#include "output/maps.h"
-#include "output/plots.h"
-#include "output/tool.h"
-#include "output/video.h"
+#include "output/maps/maps.h"
+#include "output/plots/plots.h"
+#include "output/plots/tool.h"
+#include "output/plots/video.h"
+#include "output/tables/csv.h"
 
 #include "folder.h"
 

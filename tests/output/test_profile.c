@@ -1,5 +1,5 @@
 /* The stage table of `run --profile`. */
-#include "output/profile.h"
+#include "output/log/profile.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

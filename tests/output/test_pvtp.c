@@ -1,10 +1,10 @@
 /* Particle files in pieces: the pieces together are the frame that was divided; a damaged list, or one that leads
    elsewhere, is refused. */
-#include "output/pvtp.h"
+#include "output/particles/pvtp.h"
 
 #include "base/random.h"
 #include "folder.h"
-#include "output/vtp.h"
+#include "output/particles/vtp.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

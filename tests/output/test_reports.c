@@ -1,8 +1,8 @@
 /* run.jsonl, summary.json, map grids and progress. */
-#include "output/maps.h"
-#include "output/progress.h"
-#include "output/runlog.h"
-#include "output/summary.h"
+#include "output/log/progress.h"
+#include "output/log/runlog.h"
+#include "output/log/summary.h"
+#include "output/maps/maps.h"
 
 #include "../check.h"
 #include "folder.h"

@@ -1,6 +1,6 @@
 /* Particle files are read back equal, also far from the origin; damaged files are refused. */
-#include "output/pvd.h"
-#include "output/vtp.h"
+#include "output/particles/pvd.h"
+#include "output/particles/vtp.h"
 
 #include "base/random.h"
 #include "folder.h"

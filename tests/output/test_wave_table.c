@@ -1,7 +1,7 @@
 /* waves.csv: the harmonics that the rows of a gauge distinguish, and no others; gauges that fall dry. */
 #include "../check.h"
 #include "base/memory.h"
-#include "output/wave_table.h"
+#include "output/tables/wave_table.h"
 
 #include <stdio.h>
 

@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "check.h"
-#include "physics/dispersion.h"
+#include "physics/waves/dispersion.h"
 
 #include <math.h>
 #include <string.h>

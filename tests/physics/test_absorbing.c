@@ -2,8 +2,8 @@
    columns of water of equal mass with hydrostatic pressure, which is the nonlinear theory of long waves, mean values of
    second order included. */
 #include "check.h"
-#include "physics/absorbing.h"
-#include "physics/dispersion.h"
+#include "physics/absorption/absorbing.h"
+#include "physics/waves/dispersion.h"
 
 #include <stdio.h>
 

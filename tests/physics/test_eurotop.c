@@ -1,6 +1,6 @@
 /* The formulas of EurOtop 2018: values worked out by hand, and how they depend on crest and slope. */
 #include "../check.h"
-#include "physics/eurotop.h"
+#include "physics/records/eurotop.h"
 
 static const double g = 9.81;
 

@@ -1,6 +1,6 @@
 /* Every kernel of the table: shape, normalisation, slope, and its sum over a lattice. */
 #include "../check.h"
-#include "physics/kernel.h"
+#include "physics/kernels/kernel.h"
 
 static const double h = 1.7; /* m: no power of it is 1 */
 

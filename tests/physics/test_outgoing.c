@@ -1,8 +1,8 @@
 /* The law that lets waves out, against linear potential theory: all modes of the water beside a boundary that moves by
    the law, the near field in the measured water included. Depth 1, g 1; time as exp(i w t), x inwards. */
 #include "../check.h"
-#include "physics/dispersion.h"
-#include "physics/outgoing.h"
+#include "physics/absorption/outgoing.h"
+#include "physics/waves/dispersion.h"
 
 #include <complex.h>
 

@@ -2,8 +2,8 @@
    free wave; long waves have Madsen's motion. */
 #include "base/memory.h"
 #include "check.h"
-#include "physics/dispersion.h"
-#include "physics/paddle_second.h"
+#include "physics/wavemakers/paddle_second.h"
+#include "physics/waves/dispersion.h"
 
 #include <complex.h>
 #include <math.h>

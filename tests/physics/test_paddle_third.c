@@ -1,10 +1,10 @@
 /* Third order of a piston's waves: against a tank of nonlinear potential flow, in which low waves show the tank's own
    error. */
 #include "check.h"
-#include "physics/dispersion.h"
-#include "physics/paddle_second.h"
-#include "physics/paddle_third.h"
-#include "physics/steady_wave.h"
+#include "physics/wavemakers/paddle_second.h"
+#include "physics/wavemakers/paddle_third.h"
+#include "physics/waves/dispersion.h"
+#include "physics/waves/steady_wave.h"
 #include "potential_tank.h"
 
 #include <math.h>

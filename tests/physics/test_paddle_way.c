@@ -1,6 +1,6 @@
 /* How far paddles move and how fast, against fine samples of the whole motion. */
 #include "../check.h"
-#include "physics/paddle_way.h"
+#include "physics/wavemakers/paddle_way.h"
 
 #include <stdio.h>
 

@@ -1,8 +1,8 @@
 /* Synthetic signals of gauges in a line: known incident and reflected waves are found again. */
 #include "../check.h"
 #include "base/random.h"
-#include "physics/dispersion.h"
-#include "physics/reflection.h"
+#include "physics/records/reflection.h"
+#include "physics/waves/dispersion.h"
 
 enum { GAUGES = 5, HARMONICS = 3 };
 

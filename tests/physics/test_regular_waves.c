@@ -1,8 +1,8 @@
 /* Regular waves compared with tabulated values, with their limits, and with the equations that they solve. */
 #include "../check.h"
-#include "physics/regular_wave.h"
-#include "physics/wave_sum.h"
-#include "physics/wave_theory.h"
+#include "physics/waves/regular_wave.h"
+#include "physics/waves/wave_sum.h"
+#include "physics/waves/wave_theory.h"
 
 #include <string.h>
 

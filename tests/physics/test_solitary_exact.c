@@ -1,8 +1,8 @@
 /* Solitary waves by the full equations: laws that any wave of permanent form obeys, none of which is used to compute
  * it. */
 #include "../check.h"
-#include "physics/solitary_exact.h"
-#include "physics/wave_theory.h"
+#include "physics/waves/solitary_exact.h"
+#include "physics/waves/wave_theory.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Reflection by sponges: known figures of long waves, and a field solved in time. */
 #include "../check.h"
-#include "physics/dispersion.h"
-#include "physics/sponge.h"
+#include "physics/absorption/sponge.h"
+#include "physics/waves/dispersion.h"
 
 static const double GRAVITY = 9.81;
 

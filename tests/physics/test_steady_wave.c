@@ -1,10 +1,10 @@
 /* Steady waves by a Fourier series: they are those of linear theory, of Stokes' fifth order and of cnoidal theory where
    these are right. */
 #include "check.h"
-#include "physics/cnoidal.h"
-#include "physics/dispersion.h"
-#include "physics/steady_wave.h"
-#include "physics/stokes.h"
+#include "physics/waves/cnoidal.h"
+#include "physics/waves/dispersion.h"
+#include "physics/waves/steady_wave.h"
+#include "physics/waves/stokes.h"
 
 static const double g = 9.81;
 

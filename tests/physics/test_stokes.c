@@ -1,9 +1,9 @@
 /* Stokes waves: the equations of the free surface hold with errors that fall with the order, the coefficients are those
    of an independent program, and the limits of the theory. */
 #include "../check.h"
-#include "physics/regular_wave.h"
-#include "physics/steady_wave.h"
-#include "physics/stokes.h"
+#include "physics/waves/regular_wave.h"
+#include "physics/waves/steady_wave.h"
+#include "physics/waves/stokes.h"
 
 #include <stdio.h>
 #include <string.h>

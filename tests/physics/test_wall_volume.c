@@ -1,7 +1,7 @@
 /* Wall volumes of boundary particles: the balance of a lattice at rest above a plane, and the effect of edges. */
 #include "../check.h"
 #include "base/vec.h"
-#include "physics/wall_volume.h"
+#include "physics/kernels/wall_volume.h"
 
 #include <stdio.h>
 

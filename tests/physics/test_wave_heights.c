@@ -1,6 +1,6 @@
 /* Heights and periods by zero crossings, of series whose waves are known. */
 #include "../check.h"
-#include "physics/wave_heights.h"
+#include "physics/records/wave_heights.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* Closed-form waves compared with the laws that they are derived from. */
 #include "../check.h"
-#include "physics/wave_theory.h"
+#include "physics/waves/wave_theory.h"
 
 static sb_solitary wave_of(double height)
 {

@@ -1,11 +1,11 @@
 /* Paddles that make waves of long duration: transfer functions against integrals, and trains against wave theory. */
 #include "../check.h"
-#include "physics/breaking.h"
-#include "physics/dispersion.h"
-#include "physics/paddle_second.h"
-#include "physics/paddle_third.h"
-#include "physics/steady_wave.h"
-#include "physics/wave_train.h"
+#include "physics/wavemakers/paddle_second.h"
+#include "physics/wavemakers/paddle_third.h"
+#include "physics/wavemakers/wave_train.h"
+#include "physics/waves/breaking.h"
+#include "physics/waves/dispersion.h"
+#include "physics/waves/steady_wave.h"
 
 #include <stdio.h>
 #include <string.h>

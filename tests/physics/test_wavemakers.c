@@ -1,8 +1,8 @@
 /* Every paddle law of the table, Goring's check values, and the motion after the stroke. */
 #include "../check.h"
 #include "base/memory.h"
-#include "physics/paddle_way.h"
-#include "physics/wavemaker_goring.h"
+#include "physics/wavemakers/goring.h"
+#include "physics/wavemakers/paddle_way.h"
 
 #include <malloc.h>
 #include <stdio.h>

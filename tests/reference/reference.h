@@ -4,7 +4,7 @@
 #define SB_TESTS_REFERENCE_H
 
 #include "base/vec.h"
-#include "physics/kernel.h"
+#include "physics/kernels/kernel.h"
 
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
 /* The camera's path through its keys, and the view matrices. */
-#include "render/camera.h"
+#include "render/camera/camera.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

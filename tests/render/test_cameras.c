@@ -1,7 +1,7 @@
 /* Cameras that find their place: on a circle, close to a body, beside the crest. */
 #include "../check.h"
-#include "render/camera.h"
-#include "render/cameras.h"
+#include "render/camera/camera.h"
+#include "render/camera/cameras.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* Loads on the faces of bodies, against water at rest. */
 #include "base/memory.h"
 #include "base/random.h"
-#include "render/face_loads.h"
+#include "render/bodies/face_loads.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* Foam over a picture of calm water: where discs lie, what hides them, and how much they cover. */
 #include "base/memory.h"
 #include "check.h"
-#include "render/foam.h"
+#include "render/foam/foam.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,11 +1,11 @@
 /* Lines, plots, names and boundary particles over a picture. */
 #include "../check.h"
 #include "base/memory.h"
-#include "render/inset.h"
-#include "render/labels.h"
-#include "render/marks.h"
-#include "render/paint.h"
-#include "render/samples.h"
+#include "render/bodies/samples.h"
+#include "render/overlay/inset.h"
+#include "render/overlay/labels.h"
+#include "render/overlay/marks.h"
+#include "render/overlay/paint.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,15 +1,15 @@
 /* The parts of the renderer that do not use OpenGL: colours, letters, files, edges, density, light. */
 #include "base/memory.h"
-#include "render/colormap.h"
-#include "render/density.h"
-#include "render/font.h"
-#include "render/image.h"
-#include "render/light.h"
-#include "render/marks.h"
-#include "render/outline.h"
-#include "render/overlay.h"
-#include "render/soften.h"
-#include "render/visible.h"
+#include "render/bodies/light.h"
+#include "render/bodies/outline.h"
+#include "render/image/image.h"
+#include "render/image/soften.h"
+#include "render/overlay/colormap.h"
+#include "render/overlay/font.h"
+#include "render/overlay/marks.h"
+#include "render/overlay/overlay.h"
+#include "render/water/density.h"
+#include "render/water/visible.h"
 
 #include <png.h>
 #include <setjmp.h>

@@ -2,7 +2,7 @@
 #include "box.h"
 
 #include "base/memory.h"
-#include "render/overlay.h"
+#include "render/overlay/overlay.h"
 #include "render/renderer.h"
 
 #include <math.h>

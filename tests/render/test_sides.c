@@ -1,7 +1,7 @@
 /* Water that stands at the domain's sides: its pictures against the exact ones of a block of calm water. */
 #include "base/memory.h"
-#include "render/plane_field.h"
-#include "render/sides.h"
+#include "render/slice/plane_field.h"
+#include "render/water/sides.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -2,9 +2,9 @@
 #include "box.h"
 
 #include "base/memory.h"
-#include "render/colormap.h"
+#include "render/overlay/colormap.h"
 #include "render/renderer.h"
-#include "render/slice.h"
+#include "render/slice/slice.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -2,8 +2,8 @@
    bodies against exact areas. */
 #include "base/memory.h"
 #include "base/random.h"
-#include "render/section.h"
-#include "render/streamlines.h"
+#include "render/slice/section.h"
+#include "render/slice/streamlines.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -2,7 +2,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "render/kinds.h"
-#include "render/splat.h"
+#include "render/water/splat.h"
 
 #include <math.h>
 #include <setjmp.h>

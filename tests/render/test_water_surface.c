@@ -1,8 +1,8 @@
 /* The smooth surface of the water: surface elements, their pictures, and the colours of fields. */
 #include "base/memory.h"
-#include "render/fields.h"
-#include "render/splat.h"
-#include "render/visible.h"
+#include "render/water/fields.h"
+#include "render/water/splat.h"
+#include "render/water/visible.h"
 
 #include <math.h>
 #include <setjmp.h>

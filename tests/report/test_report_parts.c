@@ -1,7 +1,7 @@
 /* The parts of a report that compute: loads, thinning, maps, smaller pictures. */
 #include "run_fixture.h"
 
-#include "render/image.h"
+#include "render/image/image.h"
 #include "report/grid.h"
 #include "report/loads.h"
 #include "report/thin.h"

@@ -1,5 +1,5 @@
 /* A record that a run writes is read as given water. */
-#include "output/csv.h"
+#include "output/tables/csv.h"
 #include "sea_scene.h"
 
 /* Rows of a wave that comes in alone: u = 2 sqrt(g h) - 2 sqrt(g d). */

@@ -1,6 +1,6 @@
 /* Given water from wave theory: places, directions, growth, bounds. */
-#include "physics/solitary_exact.h"
-#include "physics/wave_theory.h"
+#include "physics/waves/solitary_exact.h"
+#include "physics/waves/wave_theory.h"
 #include "sea_scene.h"
 
 static const double g = 9.81;

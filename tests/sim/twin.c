@@ -1,7 +1,7 @@
 #include "sim/twin.h"
 
 #include "base/memory.h"
-#include "physics/wall_volume.h"
+#include "physics/kernels/wall_volume.h"
 #include "sim/search/around.h"
 #include "sim/walls/normals.h"
 

@@ -1,8 +1,8 @@
 /* Tests of the analysis of waves by the validation cases, with signals whose waves are known, and of its theory. */
 #include "check.h"
 
-#include "physics/dispersion.h"
-#include "physics/steady_wave.h"
+#include "physics/waves/dispersion.h"
+#include "physics/waves/steady_wave.h"
 #include "theory.h"
 #include "wave_fit.h"
 

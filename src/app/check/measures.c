@@ -2,10 +2,10 @@
    per period. */
 #include "app/check/measures.h"
 
-#include "output/overtopping_rate.h"
-#include "output/wave_table.h"
-#include "physics/eurotop.h"
-#include "physics/reflection.h"
+#include "output/tables/overtopping_rate.h"
+#include "output/tables/wave_table.h"
+#include "physics/records/eurotop.h"
+#include "physics/records/reflection.h"
 
 #include <math.h>
 #include <stdio.h>

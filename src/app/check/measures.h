@@ -3,7 +3,7 @@
 #define SB_APP_CHECK_MEASURES_H
 
 #include "app/check/warning_visit.h"
-#include "output/json.h"
+#include "output/log/json.h"
 #include "scene/scene.h"
 
 /* Warns of waves and rates that begin after the end of the run, without gauges, or with too few rows per period. */

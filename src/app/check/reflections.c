@@ -1,9 +1,9 @@
 #include "app/check/reflections.h"
 
 #include "base/memory.h"
-#include "physics/cnoidal.h"
-#include "physics/reflection.h"
-#include "physics/steady_wave.h"
+#include "physics/records/reflection.h"
+#include "physics/waves/cnoidal.h"
+#include "physics/waves/steady_wave.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,9 @@
 #include "app/check/sea.h"
 
 #include "base/per_cent.h"
-#include "physics/breaking.h"
-#include "physics/dispersion.h"
-#include "physics/wavemaker.h"
+#include "physics/wavemakers/wavemaker.h"
+#include "physics/waves/breaking.h"
+#include "physics/waves/dispersion.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 
 #include "app/check/warning_visit.h"
 #include "geometry/model/model.h"
-#include "output/json.h"
+#include "output/log/json.h"
 
 /* Prints the capillary length, and Bond and Weber numbers. */
 void sb_check_tension_text(const sb_scene *scene, const sb_model *model);

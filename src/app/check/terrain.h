@@ -3,7 +3,7 @@
 #define SB_APP_CHECK_TERRAIN_H
 
 #include "geometry/model/model.h"
-#include "output/json.h"
+#include "output/log/json.h"
 
 /* Print the bodies that are grids. */
 void sb_check_terrain_text(const sb_model *model);

@@ -7,7 +7,7 @@
 #include "app/check/tension.h"
 #include "app/check/wave_warnings.h"
 #include "app/check/zones.h"
-#include "physics/wavemaker.h"
+#include "physics/wavemakers/wavemaker.h"
 #include "sim/sim.h"
 
 #include <math.h>

@@ -2,10 +2,10 @@
 
 #include "base/memory.h"
 #include "base/per_cent.h"
-#include "physics/dispersion.h"
-#include "physics/regular_wave.h"
-#include "physics/steady_wave.h"
-#include "physics/wavemaker.h"
+#include "physics/wavemakers/wavemaker.h"
+#include "physics/waves/dispersion.h"
+#include "physics/waves/regular_wave.h"
+#include "physics/waves/steady_wave.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,9 +3,9 @@
 #include "app/check/zones.h"
 #include "base/memory.h"
 #include "base/per_cent.h"
-#include "physics/dispersion.h"
-#include "physics/paddle_way.h"
-#include "physics/steady_wave.h"
+#include "physics/wavemakers/paddle_way.h"
+#include "physics/waves/dispersion.h"
+#include "physics/waves/steady_wave.h"
 #include "sim/sim.h"
 
 #include <math.h>

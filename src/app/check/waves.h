@@ -3,7 +3,7 @@
 #define SB_APP_CHECK_WAVES_H
 
 #include "geometry/model/model.h"
-#include "output/json.h"
+#include "output/log/json.h"
 #include "scene/scene.h"
 
 /* Prints the solitary waves and the wave trains, with wavelength, kd, Ursell number, steepness, particles per height

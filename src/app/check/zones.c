@@ -2,7 +2,7 @@
 #include "app/check/zones.h"
 
 #include "base/per_cent.h"
-#include "physics/sponge.h"
+#include "physics/absorption/sponge.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,8 +3,8 @@
 #include "app/cluster/orders.h"
 #include "base/hash.h"
 #include "mpi/world.h"
-#include "output/particle_format.h"
-#include "output/pvtp.h"
+#include "output/particles/particle_format.h"
+#include "output/particles/pvtp.h"
 
 void sb_cluster_save(run *r, bool settling, sb_archive_out *out)
 {

@@ -12,7 +12,7 @@
 #include "app/grid/water.h"
 #include "app/options.h"
 #include "geometry/model/model.h"
-#include "output/json.h"
+#include "output/log/json.h"
 #include "sea/sea.h"
 #include "sim/sim.h"
 

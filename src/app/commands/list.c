@@ -1,8 +1,8 @@
 #include "app/commands/commands.h"
 #include "app/options.h"
 #include "base/nearest.h"
-#include "physics/kernel.h"
-#include "physics/wavemaker.h"
+#include "physics/kernels/kernel.h"
+#include "physics/wavemakers/wavemaker.h"
 #include "sim/pressure/pressure.h"
 
 #include <stdio.h>

@@ -7,11 +7,11 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "frame/frame.h"
-#include "render/cameras.h"
-#include "render/font.h"
-#include "render/paint.h"
+#include "render/bodies/samples.h"
+#include "render/camera/cameras.h"
+#include "render/overlay/font.h"
+#include "render/overlay/paint.h"
 #include "render/renderer.h"
-#include "render/samples.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 #include "app/commands/preview_marks.h"
 
-#include "render/labels.h"
+#include "render/overlay/labels.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,8 +4,8 @@
 #define SB_APP_PREVIEW_MARKS_H
 
 #include "geometry/model/model.h"
-#include "render/camera.h"
-#include "render/image.h"
+#include "render/camera/camera.h"
+#include "render/image/image.h"
 
 enum { SB_MARK_BODIES = 1, SB_MARK_PLACES = 2 /* of measurements */ };
 

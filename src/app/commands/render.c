@@ -8,8 +8,8 @@
 #include "app/run/files.h"
 #include "base/memory.h"
 #include "base/nearest.h"
-#include "output/particle_format.h"
-#include "output/video.h"
+#include "output/particles/particle_format.h"
+#include "output/plots/video.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -5,7 +5,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "geometry/model/model.h"
-#include "output/vtp.h"
+#include "output/particles/vtp.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -8,9 +8,9 @@
 #include "base/memory.h"
 #include "base/nearest.h"
 #include "base/stop.h"
-#include "output/particle_format.h"
-#include "output/progress.h"
-#include "output/pvd.h"
+#include "output/log/progress.h"
+#include "output/particles/particle_format.h"
+#include "output/particles/pvd.h"
 #include "surface/make.h"
 #include "surface/mesh_format.h"
 

@@ -2,7 +2,7 @@
 #ifndef SB_APP_TIMES_H
 #define SB_APP_TIMES_H
 
-#include "output/particle_list.h"
+#include "output/particles/particle_list.h"
 
 #include <stdbool.h>
 

@@ -2,7 +2,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "render/inset.h"
+#include "render/overlay/inset.h"
 #include "report/series_table.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
 #include "base/archive.h"
 #include "frame/records.h"
 #include "geometry/model/model.h"
-#include "render/image.h"
+#include "render/image/image.h"
 #include "scene/scene.h"
 
 #include <pthread.h>

@@ -1,7 +1,7 @@
 /* Writes frames as particle files. */
 #include "app/frames/consumers.h"
-#include "output/foam_files.h"
-#include "output/pvtp.h"
+#include "output/particles/foam_files.h"
+#include "output/particles/pvtp.h"
 
 #include <errno.h>
 #include <string.h>

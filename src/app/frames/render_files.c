@@ -1,7 +1,7 @@
 #include "app/frames/render_files.h"
 
 #include "app/grid/picture.h"
-#include "output/foam_files.h"
+#include "output/particles/foam_files.h"
 
 #include <math.h>
 #include <stdio.h>

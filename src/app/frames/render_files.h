@@ -3,7 +3,7 @@
 #define SB_APP_RENDER_FILES_H
 
 #include "app/frames/consumers.h"
-#include "output/particle_format.h"
+#include "output/particles/particle_format.h"
 
 /* A warning of one line, without its end. */
 typedef void (*sb_render_warning)(const char *text);

@@ -3,8 +3,8 @@
 #include "app/run/parts.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "output/pvd.h"
-#include "output/vti.h"
+#include "output/maps/vti.h"
+#include "output/particles/pvd.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 #include "app/grid/maps.h"
 
 #include "base/memory.h"
-#include "output/maps.h"
+#include "output/maps/maps.h"
 
 #include <math.h>
 

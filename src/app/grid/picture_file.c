@@ -3,7 +3,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
-#include "output/vti.h"
+#include "output/maps/vti.h"
 
 #include <math.h>
 #include <stdio.h>

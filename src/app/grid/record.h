@@ -3,8 +3,8 @@
 #define SB_APP_GRID_RECORD_H
 
 #include "offshore/maps.h"
-#include "output/csv.h"
-#include "output/particle_list.h"
+#include "output/particles/particle_list.h"
+#include "output/tables/csv.h"
 
 typedef struct sb_grid_record {
     const sb_scene *scene;

@@ -4,7 +4,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/memory.h"
-#include "output/json.h"
+#include "output/log/json.h"
 
 #include <math.h>
 #include <omp.h>

@@ -3,7 +3,7 @@
 #define SB_APP_GRID_REPORT_H
 
 #include "app/grid/water.h"
-#include "output/grid_summary.h"
+#include "output/log/grid_summary.h"
 
 typedef struct sb_grid_summary {
     const sb_scene *scene;

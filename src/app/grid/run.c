@@ -6,7 +6,7 @@
 #include "app/grid/report.h"
 #include "app/run/parts.h"
 #include "base/stop.h"
-#include "output/plots.h"
+#include "output/plots/plots.h"
 
 #include <math.h>
 #include <omp.h>

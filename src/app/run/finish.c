@@ -8,10 +8,10 @@
 #include "app/steering/steering.h"
 #include "base/memory.h"
 #include "base/stop.h"
-#include "output/maps.h"
-#include "output/plots.h"
-#include "output/summary.h"
-#include "output/video.h"
+#include "output/log/summary.h"
+#include "output/maps/maps.h"
+#include "output/plots/plots.h"
+#include "output/plots/video.h"
 
 #include <math.h>
 #include <omp.h>

@@ -2,7 +2,7 @@
 #include "app/checkpoint/checkpoint.h"
 #include "app/run/parts.h"
 #include "app/run/run.h"
-#include "output/foam_files.h"
+#include "output/particles/foam_files.h"
 
 #include <errno.h>
 #include <stdio.h>

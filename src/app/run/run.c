@@ -9,7 +9,7 @@
 #include "app/steering/picture_now.h"
 #include "app/steering/steering.h"
 #include "base/stop.h"
-#include "output/profile.h"
+#include "output/log/profile.h"
 
 #include <math.h>
 #include <omp.h>

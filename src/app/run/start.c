@@ -11,7 +11,7 @@
 #include "app/run/run.h"
 #include "app/run/spent.h"
 #include "app/steering/steering.h"
-#include "output/summary.h"
+#include "output/log/summary.h"
 
 #include <math.h>
 #include <omp.h>

@@ -9,9 +9,9 @@
 #include "app/steering/helper.h"
 #include "base/ranks.h"
 #include "measure/measure.h"
-#include "output/csv.h"
-#include "output/progress.h"
-#include "output/summary.h"
+#include "output/log/progress.h"
+#include "output/log/summary.h"
+#include "output/tables/csv.h"
 #include "sim/sim.h"
 
 enum { RECORDER, PICTURES, STREAMER, CONSUMERS };

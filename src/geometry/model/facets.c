@@ -2,7 +2,7 @@
 #include "base/memory.h"
 #include "geometry/model/facet_parts.h"
 #include "geometry/solid/solid.h"
-#include "physics/paddle_way.h"
+#include "physics/wavemakers/paddle_way.h"
 
 #include <math.h>
 

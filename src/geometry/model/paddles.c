@@ -1,6 +1,6 @@
 /* Paddles of wave trains: their water must be ahead, and the domain and its sponges must leave them room. */
 #include "geometry/model/parts.h"
-#include "physics/paddle_way.h"
+#include "physics/wavemakers/paddle_way.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* The speed that pictures show at the upper end of their colours. */
 #include "geometry/model/model.h"
-#include "physics/dispersion.h"
+#include "physics/waves/dispersion.h"
 
 #include <math.h>
 

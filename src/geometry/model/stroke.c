@@ -1,6 +1,6 @@
 /* Warns of strokes that are faster than waves in their water, and of strokes that run into other bodies. */
 #include "geometry/model/parts.h"
-#include "physics/paddle_way.h"
+#include "physics/wavemakers/paddle_way.h"
 
 #include <math.h>
 

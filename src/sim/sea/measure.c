@@ -1,6 +1,6 @@
 /* The outgoing wave inside of a strip. Its characteristic u - 2 sqrt(g h) is that of the water there less that of the
    given water at the same place. A filter of second order makes of it the wave at the strip's inner edge. */
-#include "physics/outgoing.h"
+#include "physics/absorption/outgoing.h"
 #include "sim/exchange/exchange.h"
 #include "sim/sea/strip.h"
 

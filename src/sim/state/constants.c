@@ -1,6 +1,6 @@
 #include "sim/state/constants.h"
 
-#include "physics/tait.h"
+#include "physics/kernels/tait.h"
 #include "sim/state/lattice.h"
 
 #include <math.h>

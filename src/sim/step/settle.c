@@ -3,7 +3,7 @@
 #include "sim/step/settle.h"
 #include "base/memory.h"
 #include "base/stop.h"
-#include "physics/wave_theory.h"
+#include "physics/waves/wave_theory.h"
 #include "sim/exchange/exchange.h"
 #include "sim/exchange/sums.h"
 #include "sim/report/report.h"

@@ -1,5 +1,5 @@
 /* The choice of the time step [S16, eqs. 10-12] (docs/method.md, section 8). */
-#include "physics/sponge.h"
+#include "physics/absorption/sponge.h"
 #include "sim/simulation.h"
 #include "sim/step/stages.h"
 #include "sim/walls/absorber.h"

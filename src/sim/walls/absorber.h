@@ -3,7 +3,7 @@
 #ifndef SB_SIM_ABSORBER_H
 #define SB_SIM_ABSORBER_H
 
-#include "physics/absorbing.h"
+#include "physics/absorption/absorbing.h"
 #include "sim/simulation.h"
 
 typedef struct sb_absorber {

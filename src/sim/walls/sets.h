@@ -2,8 +2,8 @@
 #ifndef SB_SIM_WALL_SETS_H
 #define SB_SIM_WALL_SETS_H
 
-#include "physics/absorbing.h"
-#include "physics/wavemaker.h"
+#include "physics/absorption/absorbing.h"
+#include "physics/wavemakers/wavemaker.h"
 #include "sim/search/cells.h"
 #include "sim/sim.h"
 #include "sim/state/space.h"

@@ -1,7 +1,7 @@
 /* Wall volumes psi of boundary particles [A12] (docs/method.md, M16, and with images M16a), and images beyond periodic
    sides. */
 #include "base/memory.h"
-#include "physics/wall_volume.h"
+#include "physics/kernels/wall_volume.h"
 #include "sim/simulation.h"
 #include "sim/walls/normals.h"
 #include "sim/walls/walls.h"

@@ -3,7 +3,7 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
-#include "physics/tait.h"
+#include "physics/kernels/tait.h"
 #include "sim/exchange/domains.h"
 #include "sim/passes/cpu/kernel_batch.h"
 #include "sim/search/around.h"

@@ -1,6 +1,6 @@
 /* The two halves of an explicit step, symplectic as in SPHysics: positions, velocities and densities in the middle of
    the step from those at its start; then, with the forces there, those at its end. */
-#include "physics/tait.h"
+#include "physics/kernels/tait.h"
 #include "sim/exchange/exchange.h"
 #include "sim/exchange/sums.h"
 #include "sim/passes/passes.h"

@@ -1,7 +1,7 @@
 /* Tests the filling with water: volumes, levels, boxes, waves, and seas that escape. */
 #include "base/memory.h"
 #include "geometry/model/model.h"
-#include "physics/wave_theory.h"
+#include "physics/waves/wave_theory.h"
 
 #include <omp.h>
 #include <setjmp.h>

@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "geometry/model/model.h"
-#include "physics/wavemaker.h"
+#include "physics/wavemakers/wavemaker.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

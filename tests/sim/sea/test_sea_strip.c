@@ -1,8 +1,8 @@
 /* Sides of kind sea: water comes in and goes out, rests, and is accounted for; the same bits for any number of threads
    and after a resumed run; bad input. */
 #include "base/memory.h"
-#include "physics/dispersion.h"
-#include "physics/reflection.h"
+#include "physics/records/reflection.h"
+#include "physics/waves/dispersion.h"
 #include "sim/passes/passes.h"
 #include "sim/sea/shore.h"
 #include "sim/sea/strip.h"

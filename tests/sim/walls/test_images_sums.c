@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "check.h"
-#include "physics/kernel.h"
+#include "physics/kernels/kernel.h"
 #include "sim/passes/passes.h"
 #include "sim/pressure/pressure.h"
 #include "sim/walls/basin.h"

@@ -3,7 +3,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "check.h"
-#include "physics/tait.h"
+#include "physics/kernels/tait.h"
 #include "sim/passes/passes.h"
 #include "sim/step/stages.h"
 #include "sim/tank.h"

@@ -4,7 +4,7 @@
 #include "child.h"
 #include "coast.h"
 #include "process.h"
-#include "render/image.h"
+#include "render/image/image.h"
 #include "render/renderer.h"
 
 #include <stdio.h>

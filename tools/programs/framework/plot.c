@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "markdown.h"
-#include "output/tool.h"
+#include "output/plots/tool.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -3,7 +3,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "frame/frame.h"
-#include "output/vtp.h"
+#include "output/particles/vtp.h"
 
 #include <dirent.h>
 #include <errno.h>

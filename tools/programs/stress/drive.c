@@ -3,7 +3,7 @@
 #include "base/clock.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "output/summary.h"
+#include "output/log/summary.h"
 #include "trial.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
 #define SB_STRESS_DRIVE_H
 
 #include "geometry/model/model.h"
-#include "output/json.h"
+#include "output/log/json.h"
 #include "scene/scene.h"
 #include "sim/sim.h"
 

@@ -1,6 +1,6 @@
 /* A breakwater that closes half of a narrow basin: reflection, diffraction and the energy that is left. */
 #include "cases.h"
-#include "physics/steady_wave.h"
+#include "physics/waves/steady_wave.h"
 #include "wave_fit.h"
 
 #include <math.h>

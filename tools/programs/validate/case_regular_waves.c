@@ -1,8 +1,8 @@
 /* Regular waves in flumes of twelve wavelengths: height, loss of height and wavelength. One scene each. */
 #include "cases.h"
 #include "paddle_case.h"
-#include "physics/dispersion.h"
-#include "physics/steady_wave.h"
+#include "physics/waves/dispersion.h"
+#include "physics/waves/steady_wave.h"
 #include "wave_fit.h"
 
 #include <math.h>

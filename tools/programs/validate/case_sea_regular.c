@@ -1,6 +1,6 @@
 /* Regular waves through a side of kind sea, which a wall sends back to it. */
 #include "cases.h"
-#include "physics/dispersion.h"
+#include "physics/waves/dispersion.h"
 #include "sea_case.h"
 
 #include <complex.h>

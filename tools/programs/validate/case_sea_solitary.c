@@ -1,6 +1,6 @@
 /* A solitary wave that comes in through one side of kind sea and leaves through another. */
 #include "cases.h"
-#include "physics/solitary_exact.h"
+#include "physics/waves/solitary_exact.h"
 #include "sea_case.h"
 
 #include <math.h>

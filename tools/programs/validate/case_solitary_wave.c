@@ -1,6 +1,6 @@
 /* A solitary wave over fifty depths of still water. */
 #include "cases.h"
-#include "physics/wave_theory.h"
+#include "physics/waves/wave_theory.h"
 
 #include <math.h>
 #include <stdio.h>

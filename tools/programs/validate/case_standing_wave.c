@@ -1,6 +1,6 @@
 /* A standing wave in a vertical slice over ten periods. */
 #include "cases.h"
-#include "physics/wave_theory.h"
+#include "physics/waves/wave_theory.h"
 #include "theory.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Waves at a vertical cylinder: forces beside linear diffraction theory, for the wave that a run without it has, or
    beside an experiment. The scene is half of a basin, so that forces are doubled. */
 #include "cases.h"
-#include "physics/dispersion.h"
+#include "physics/waves/dispersion.h"
 #include "theory.h"
 #include "wave_fit.h"
 

@@ -1,7 +1,7 @@
 #include "frames.h"
 
 #include "base/file.h"
-#include "output/vtp.h"
+#include "output/particles/vtp.h"
 
 #include <stdio.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 #include "paddle_case.h"
 
-#include "physics/dispersion.h"
+#include "physics/waves/dispersion.h"
 #include "wave_fit.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Theory of the cases, beyond src/physics/wave_theory.h. */
+/* Theory of the cases, beyond src/physics/waves/wave_theory.h. */
 #ifndef SB_VALIDATE_THEORY_H
 #define SB_VALIDATE_THEORY_H
 

@@ -1,7 +1,7 @@
 #include "wave_fit.h"
 
-#include "physics/dispersion.h"
-#include "physics/steady_wave.h"
+#include "physics/waves/dispersion.h"
+#include "physics/waves/steady_wave.h"
 #include "theory.h"
 
 #include <math.h>

@@ -4,8 +4,8 @@
 #define SB_VALIDATE_WAVE_FIT_H
 
 #include "case.h"
-#include "physics/reflection.h"
-#include "physics/stokes.h"
+#include "physics/records/reflection.h"
+#include "physics/waves/stokes.h"
 
 enum { SB_FIT_HARMONICS = 4 };
 

@@ -1,8 +1,8 @@
-/* Kernel values of a whole list in one call: vector forms of the kernels of src/physics/kernel.h. */
+/* Kernel values of a whole list in one call: vector forms of the kernels of src/physics/kernels/kernel.h. */
 #ifndef SB_SIM_KERNEL_BATCH_H
 #define SB_SIM_KERNEL_BATCH_H
 
-#include "physics/kernel.h"
+#include "physics/kernels/kernel.h"
 
 #include <stddef.h>
 
