@@ -28,6 +28,10 @@ sb_status sb_reader_block(sb_reader *reader, const sb_yaml *map, const sb_table 
 /* Refuses an interval that fits too often into the run's duration. 0 (off) is allowed. */
 sb_status sb_reader_interval(sb_reader *reader, const sb_yaml *map, const char *key, double interval);
 
+/* Gives `period` and `depth` that map does not have the values of the scene's waves; fails if there are none, or
+   several that differ. regular: only regular waves have such a period. */
+sb_status sb_reader_period(sb_reader *reader, const sb_yaml *map, bool regular, double *period, double *depth);
+
 /* Refuses the name of a body that the scene does not have, and names the most similar one. */
 sb_status sb_reader_no_body(sb_reader *reader, const sb_yaml *map, const char *key, const char *name);
 

@@ -1,4 +1,5 @@
 /* Tables of measurements but planes and run-up lines (table_planes.c) and reflections (table_reflections.c). */
+#include "scene/scene_waves.h"
 #include "scene/table_planes.h"
 
 #include <math.h>
@@ -144,15 +145,16 @@ static const sb_key waves_keys[] = {
     {.name = "start", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wave_settings, start), .unit = "s", SB_KEY_NOT_NEGATIVE,
      .fallback = "0", .doc = "Time from which rows are used: when the waves have passed the gauges."},
     {.name = "period", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_wave_settings, period), .unit = "s", SB_KEY_NOT_NEGATIVE,
-     .fallback = "0", .doc = "Period of the first of five harmonics; 0: no harmonics."},
+     .derived = "that of the scene's regular waves, or 0", .doc = "Period of the first of five harmonics; 0: no harmonics."},
 };
 /* clang-format on */
 
 static sb_status finish_waves(sb_reader *reader, const sb_yaml *map, void *item)
 {
-    (void)reader;
-    (void)map;
-    ((sb_wave_settings *)item)->present = true;
+    sb_wave_settings *settings = item;
+    const sb_scene_waves waves = sb_scene_waves_of(reader->scene);
+    settings->present = true;
+    if (!sb_yaml_child(map, "period") && waves.regular) settings->period = waves.period;
     return SB_OK;
 }
 

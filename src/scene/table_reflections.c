@@ -1,6 +1,7 @@
 #include "physics/records/reflection.h"
 #include "physics/waves/dispersion.h"
 #include "scene/reader.h"
+#include "scene/scene_waves.h"
 
 #include <math.h>
 #include <string.h>
@@ -54,17 +55,16 @@ static const sb_key keys[] = {
      .doc = "Unique name of the set."},
     {.name = "gauges", .type = SB_KEY_LIST, SB_KEY_ITEMS(sb_reflection_set, gauges, gauge_count), .table = &name_table,
      .doc = "Names of three or more gauges in a line. Incident waves travel from the first to the last."},
-    {.name = "period", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_reflection_set, period), .unit = "s", .min = 0,
-     .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED,
+    {.name = "period", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_reflection_set, period), .unit = "s",
+     SB_KEY_POSITIVE, .derived = "that of the scene's regular waves",
      .doc = "Longest period. Of irregular waves: the time after which they repeat."},
     {.name = "harmonics", .type = SB_KEY_INTEGER, SB_KEY_AT(sb_reflection_set, harmonics), .min = 1, .max = 100,
      .fallback = "3", .doc = "Number of components: the period and its fractions 1/2, 1/3, ..."},
-    {.name = "depth", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_reflection_set, depth), .unit = "m", .min = 0,
-     .max = HUGE_VAL, .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Still-water depth at the gauges."},
+    {.name = "depth", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_reflection_set, depth), .unit = "m",
+     SB_KEY_POSITIVE, .derived = "that of the scene's waves", .doc = "Still-water depth at the gauges."},
     {.name = "wavelength", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_reflection_set, length), .unit = "m",
-     SB_KEY_NOT_NEGATIVE, .fallback = "0", .flags = SB_KEY_LATER,
-     .doc = "Wavelength of the first harmonic; 0: that of linear theory. High and long waves are longer: `check` says "
-            "how long those of a wave maker are."},
+     SB_KEY_NOT_NEGATIVE, .derived = "that of the wave maker's regular waves of the period, or 0", .flags = SB_KEY_LATER,
+     .doc = "Wavelength of the first harmonic; 0: that of linear theory. High and long waves are longer."},
     {.name = "bound", .type = SB_KEY_SWITCH, SB_KEY_AT(sb_reflection_set, bound), .fallback = "false",
      .flags = SB_KEY_LATER,
      .doc = "For regular waves, with four or more gauges: harmonics above the first are split into free waves and waves "
@@ -103,12 +103,24 @@ static sb_status check_gauges(sb_reader *reader, const sb_yaml *map, const sb_re
     return SB_OK;
 }
 
+/* Length in a closed flume of the regular waves of one wave maker, if they have the period, m; otherwise 0. */
+static double length_of_waves(const sb_scene *scene, const sb_reflection_set *set)
+{
+    static const double same = 0.005;
+    const sb_scene_waves waves = sb_scene_waves_of(scene);
+    if (!waves.regular || !waves.law || !(fabs(waves.period / set->period - 1) < same)) return 0;
+    const double length = sb_flume_length_of(waves.law, set->depth).length;
+    return length > 0 ? length : 0;
+}
+
 static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
 {
     sb_reflection_set *set = item;
     const double interval = reader->scene->measure.interval;
     sb_status status = check_gauges(reader, map, set);
+    if (status == SB_OK) status = sb_reader_period(reader, map, true, &set->period, &set->depth);
     if (status != SB_OK) return status;
+    if (!sb_yaml_child(map, "wavelength")) set->length = length_of_waves(reader->scene, set);
     if (!sb_yaml_child(map, "window")) set->window = 5 * set->period;
     if (set->window < set->period)
         return sb_reader_fail(reader, map, "window", "%g s is shorter than the period, expected at least %g s",

@@ -1,4 +1,6 @@
+#include "physics/waves/dispersion.h"
 #include "scene/reader.h"
+#include "scene/scene_waves.h"
 
 #include <math.h>
 #include <string.h>
@@ -27,14 +29,14 @@ static const sb_key keys[] = {
      .flags = SB_KEY_REQUIRED, .doc = "Side of the domain towards which the strength grows."},
     {.name = "end", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, end), .unit = "m", SB_KEY_ANY,
      .derived = "that of the side", .doc = "Coordinate, x or y, at which the greatest strength is reached. Beyond it the strength stays the same; the predicted reflection has a wall there."},
-    {.name = "length", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, length), .unit = "m", .min = 0, .max = HUGE_VAL,
-     .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Length in which the strength grows from 0; one wavelength or more."},
+    {.name = "length", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, length), .unit = "m", SB_KEY_POSITIVE,
+     .derived = "one wavelength by linear theory", .doc = "Length in which the strength grows from 0; one wavelength or more."},
     {.name = "profile", .type = SB_KEY_CHOICE, SB_KEY_AT(sb_sponge, profile), .words = profile_names,
      .fallback = "quadratic", .doc = "How the strength grows along the length."},
-    {.name = "period", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, period), .unit = "s", .min = 0, .max = HUGE_VAL,
-     .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Period of the waves; of a spectrum, that of its peak."},
-    {.name = "depth", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, depth), .unit = "m", .min = 0, .max = HUGE_VAL,
-     .flags = SB_KEY_ABOVE | SB_KEY_REQUIRED, .doc = "Still-water depth there."},
+    {.name = "period", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, period), .unit = "s", SB_KEY_POSITIVE,
+     .derived = "that of the scene's waves", .doc = "Period of the waves; of a spectrum, that of its peak."},
+    {.name = "depth", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, depth), .unit = "m", SB_KEY_POSITIVE,
+     .derived = "that of the scene's waves", .doc = "Still-water depth there."},
     {.name = "strength", .type = SB_KEY_NUMBER, SB_KEY_AT(sb_sponge, strength), .unit = "1/s", SB_KEY_POSITIVE,
      .applies = DAMPING, .only = "kind damping", .derived = "the one with the least reflection by linear theory",
      .doc = "Greatest strength: water loses this share of its velocity per second."},
@@ -57,6 +59,10 @@ static sb_status finish(sb_reader *reader, const sb_yaml *map, void *item)
     if (sb_scene_repeats(scene, axis))
         return sb_reader_fail(reader, map, "side", "%s is periodic, expected another kind of side",
                               side_names[sponge->side]);
+    const sb_status status = sb_reader_period(reader, map, false, &sponge->period, &sponge->depth);
+    if (status != SB_OK) return status;
+    if (!sb_yaml_child(map, "length"))
+        sponge->length = 2 * M_PI / sb_wave_number(sponge->period, sponge->depth, scene->fluid.gravity);
     if (!sb_yaml_child(map, "end")) sponge->end = sides[sponge->side];
     if (!(sponge->end >= sides[2 * axis] && sponge->end <= sides[2 * axis + 1]))
         return sb_reader_fail(reader, map, "end", "%g m is outside of the domain, expected %g to %g", sponge->end,

@@ -195,7 +195,7 @@ static const struct {
     {FLUME(WAVES, "", ", reflections: [{name: r, gauges: [a, b, c], period: 2, depth: 1}]"),
      "measure.reflections r: period: 2 s is not the period of the waves", "expected that period"},
     {FLUME("kind: regular, height: 0.4, period: 5", "",
-           ", reflections: [{name: r, gauges: [a, b, c], period: 5, depth: 1}]"),
+           ", reflections: [{name: r, gauges: [a, b, c], period: 5, depth: 1, wavelength: 0}]"),
      "measure.reflections r: waves of \"w\" are ", "expected wavelength: "},
     {FLUME(WAVES, "", ", planes: [{name: p, from: [5], z_min: 1.2, eurotop: {height: 0.02, slope: 0.4, period: 9}}]"),
      "measure.planes p: eurotop: the breaker parameter of 31.8", "expected below 7"},

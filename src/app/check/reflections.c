@@ -2,8 +2,7 @@
 
 #include "base/memory.h"
 #include "physics/records/reflection.h"
-#include "physics/waves/cnoidal.h"
-#include "physics/waves/steady_wave.h"
+#include "scene/scene_waves.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -38,22 +37,6 @@ static void warn_of_window(const sb_scene *scene, const sb_reflection_set *set, 
     visit(context, text);
 }
 
-/* Length of regular waves in a closed flume, m, and its relative error. */
-typedef struct own_length {
-    double length, error; /* length NaN: not known */
-} own_length;
-
-/* Cnoidal theory has waves that are too long and high for the series of the steady wave. */
-static own_length length_of(const sb_wavemaker_parameters *law, double depth)
-{
-    sb_steady_wave wave;
-    sb_cnoidal cnoidal;
-    if (sb_steady_wave_of(law->height, law->period, depth, law->gravity, &wave))
-        return (own_length){wave.length, 0.005};
-    const bool found = sb_cnoidal_of_period(law->height, law->period, depth, law->gravity, &cnoidal, NULL) == SB_OK;
-    return (own_length){found ? cnoidal.length : (double)NAN, 0.04};
-}
-
 /* Waves of a wave maker that are longer or shorter than the split takes them for seem to be reflected. */
 static void warn_of_length(const sb_scene *scene, const sb_reflection_set *set, sb_warning_visit *visit, void *context)
 {
@@ -63,7 +46,7 @@ static void warn_of_length(const sb_scene *scene, const sb_reflection_set *set, 
         const sb_wavemaker_parameters *law = &scene->wavemakers[w].law;
         const double length = 2 * M_PI / sb_reflection_number(scene, set, 1);
         if (strcmp(law->kind->name, "regular") != 0 || fabs(law->period / set->period - 1) > enough) continue;
-        const own_length own = length_of(law, set->depth);
+        const sb_flume_length own = sb_flume_length_of(law, set->depth);
         if (!(fabs(length / own.length - 1) > own.error)) continue;
         snprintf(
             text, sizeof text,
@@ -76,37 +59,11 @@ static void warn_of_length(const sb_scene *scene, const sb_reflection_set *set, 
     }
 }
 
-/* What makes the regular waves of a scene, as messages name it, and their period, s. */
-typedef struct regular_waves {
-    const char *maker, *name;
-    double period; /* 0: there are none, or several */
-} regular_waves;
-
-static void note(regular_waves *found, bool *several, const char *maker, const char *name, double period)
-{
-    *several |= found->period > 0;
-    *found = (regular_waves){maker, name, period};
-}
-
-static regular_waves regular_of(const sb_scene *scene)
-{
-    regular_waves found = {0};
-    bool several = false;
-    for (size_t w = 0; w < scene->wavemaker_count; w++)
-        if (strcmp(scene->wavemakers[w].law.kind->name, "regular") == 0)
-            note(&found, &several, "", scene->wavemakers[w].name, scene->wavemakers[w].law.period);
-    if (scene->given.source == SB_GIVEN_THEORY && scene->given.wave == SB_GIVEN_REGULAR)
-        note(&found, &several, "block ", "sea", scene->given.period);
-    if (scene->wave.kind == SB_INITIAL_REGULAR)
-        note(&found, &several, "block ", "water.wave", scene->wave.wavelength / scene->wave.stokes.celerity);
-    return several ? (regular_waves){0} : found;
-}
-
 void sb_period_warning(const sb_scene *scene, const char *what, double period, sb_warning_visit *visit, void *context)
 {
     char text[300];
-    const regular_waves waves = regular_of(scene);
-    const double ratio = waves.period > 0 ? period / waves.period : 1;
+    const sb_scene_waves waves = sb_scene_waves_of(scene);
+    const double ratio = waves.regular ? period / waves.period : 1;
     if (!(period > 0) || (ratio > 0.5 && fabs(ratio - round(ratio)) < 0.005 * ratio)) return;
     snprintf(text, sizeof text,
              "%s: %g s is not the period of the waves of %s\"%s\", %.5g s, so that its harmonics are not theirs; "
