@@ -4,6 +4,8 @@
 
 #include "base/memory.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define TANK                                                                                                           \
@@ -109,6 +111,8 @@ static const struct {
      "wave maker \"w\": a wave height of 0.04 m is 0.8 times the particle spacing", "expected 5 times or more"},
     {WAVES_BY("kind: signal, depth: 0.5, file: signal.txt, distance: 1"), "wave maker \"w\": a wave height of 0.02 m",
      "expected 5 times or more"},
+    {WAVES_BY("kind: signal, depth: 0.5, file: drift.txt, distance: 1"),
+     "wave maker \"w\": waves of more than 3.2 s have ", "the drift of its gauge"},
     {WAVES_BY("kind: signal, depth: 0.5, file: signal.txt, distance: 3000"),
      "wave maker \"w\": its distance of 3000 m is outside of the domain, which ends 4 m ahead of it",
      "expected a shorter distance or a longer domain"},
@@ -333,12 +337,24 @@ static const struct {
      "measure.reflections r: no water is at gauge \"a\" at t = 0", "expected gauges in the water"},
 };
 
+/* Waves of 0.4 s and 1 cm on a level that rises by 4 mm in 12.8 s. */
+static void write_drift(const char *name)
+{
+    char text[4096];
+    size_t length = 0;
+    for (int i = 0; i < 128; i++)
+        length += (size_t)snprintf(text + length, sizeof text - length, "%.1f %.6f\n", 0.1 * i,
+                                   0.01 * sin(0.5 * M_PI * i) + 0.004 * i / 128);
+    write_text(name, text);
+}
+
 static void check_and_run_give_the_same_warnings(void **state)
 {
     (void)state;
     write_text("lift.asc", "ncols 2\nnrows 2\nxllcenter 2\nyllcenter -1\ncellsize 2\n-0.7 0\n-0.7 0\n");
     write_text("short.txt", "0.03 2 0\n0.02 0.8 0\n");
     write_text("list.txt", "0.01 1.5 0\n0.01 1.2 0\n");
+    write_drift("drift.txt");
     write_text("signal.txt", "0 0\n.1 .01\n.2 0\n.3 -.01\n.4 0\n.5 .01\n.6 0\n.7 -.01\n.8 0\n.9 .01\n1 0\n1.1 -.01\n");
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         write_text("doubtful.yaml", cases[k].scene);

@@ -248,6 +248,38 @@ static void warn_of_way(const sb_wavemaker_use *maker, const sb_paddle *paddle, 
     visit(context, text);
 }
 
+/* Waves of periods longer than these of the highest wave count as slow, and a paddle that they move more than all
+   others do although they have less than this share of the energy follows the drift of a gauge rather than waves. */
+static const double SLOW = 8, SLOW_ENERGY = 0.1;
+
+static sb_status warn_of_slow(const sb_wavemaker_use *maker, const sb_paddle *paddle, sb_warning_visit *visit,
+                              void *context, sb_error *error)
+{
+    char text[400], part[32];
+    const sb_wavemaker_parameters *law = &maker->law;
+    const double from = SLOW * law->kind->facts(paddle->state)->period;
+    double energy[2] = {0}, motion[2] = {0}; /* of all other waves, and of slow ones */
+    size_t count;
+    sb_band_part *band = sb_paddle_band(paddle, &count);
+    if (!band) return sb_fail_memory(error, "a wave maker");
+    for (size_t i = 0; i < count; i++) {
+        const double period = 2 * M_PI / band[i].omega, number = sb_wave_number(period, law->depth, law->gravity);
+        const bool slow = period > from;
+        energy[slow] += band[i].weight;
+        motion[slow] += band[i].weight / pow(sb_paddle_gain(law->motion, number, law->depth), 2);
+    }
+    sb_free(band);
+    const double share = energy[1] / (energy[0] + energy[1]);
+    if (!(motion[1] > motion[0]) || !(share < SLOW_ENERGY)) return SB_OK;
+    snprintf(text, sizeof text,
+             "wave maker \"%s\": waves of more than %.3g s have %s of the energy of its file and move the paddle by "
+             "%.3g m (two standard deviations), all others by %.3g m; expected a surface without the drift of its "
+             "gauge, unless these are waves",
+             maker->name, from, sb_per_cent(share, part), sqrt(2 * motion[1]), sqrt(2 * motion[0]));
+    visit(context, text);
+    return SB_OK;
+}
+
 /* An absorber knows one period, and regular waves have one. */
 static void warn_of_absorber(const sb_scene *scene, const sb_wavemaker_use *absorber, sb_warning_visit *visit,
                              void *context)
@@ -288,6 +320,7 @@ sb_status sb_wave_warnings(const sb_scene *scene, sb_warning_visit *visit, void 
         if (status == SB_OK && needs & SB_WM_FOCUS) status = visit_group(maker, &paddle, visit, context, error);
         if (status == SB_OK && needs & SB_WM_FILE && needs & SB_WM_DISTANCE)
             warn_of_way(maker, &paddle, visit, context);
+        if (status == SB_OK && needs & SB_WM_FILE) status = warn_of_slow(maker, &paddle, visit, context, error);
         sb_paddle_destroy(&paddle);
     }
     return status;
