@@ -21,4 +21,12 @@ static inline double sb_domain_end(const sb_domain *domain, sb_vec3 direction)
            direction.y * (direction.y > 0 ? domain->max.y : domain->min.y);
 }
 
+/* How far a body may move against a horizontal direction until it is at the side of the domain, m. front, back: where
+   it ends along the direction, m. A body that ends at the side or beyond it may move its front up to there. */
+static inline double sb_domain_room(const sb_domain *domain, sb_vec3 direction, double front, double back)
+{
+    const double end = sb_domain_end(domain, sb_scale(direction, -1));
+    return end + back > 0 ? end + back : fmax(end + front, 0);
+}
+
 #endif

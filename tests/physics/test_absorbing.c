@@ -70,7 +70,8 @@ static outcome run(double wavelengths, double sponge, bool second)
         const sb_absorbing_input input = {.surface = depth_of(&f, 0) - DEPTH,
                                           .expected = ramp * 0.5 * HEIGHT * cos(omega * t - k * distance),
                                           .law_speed = (law - had) / dt,
-                                          .reach = DEPTH};
+                                          .least = -DEPTH,
+                                          .most = DEPTH};
         assert_false(sb_absorbing_advance(&filter, &input, dt, &state));
         step(&f, law + state.offset, omega, dt);
         found.drift[n / (10 * steps)] += state.offset / (20 * stroke * steps);

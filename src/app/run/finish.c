@@ -191,8 +191,8 @@ static sb_absorption *find_absorptions(run *r)
                         r->model.bodies[b].name, one.offset, one.farthest, one.drift, (unsigned long long)one.limited);
         if (one.limited > 0)
             sb_run_warn(r,
-                        "the absorbing paddle \"%.63s\" was stopped at its reach in %llu steps, in which it reflected "
-                        "waves: expected a larger reach, or lower waves",
+                        "the absorbing paddle \"%.63s\" was stopped at its reach, or at a side of the domain, in %llu "
+                        "steps, in which it reflected waves: expected a larger reach and room for it, or lower waves",
                         r->model.bodies[b].name, (unsigned long long)one.limited);
     }
     return all;

@@ -117,19 +117,32 @@ static sb_status check_width(const sb_scene *scene, size_t maker, const sides *s
 
 /* ---- room ---- */
 
-/* A body that ends at the domain's side or beyond it may move its face up to there. */
+/* An absorbing paddle moves from its law about as far as that moves, if waves of the same height come back; one without
+   a law may need all of its reach. */
+static sb_status check_reach(const sb_wavemaker_use *use, const sb_paddle_way *way, double behind, double ahead,
+                             sb_model *model, sb_error *error)
+{
+    const double swing = fmax(way->most, -way->least);
+    const double need = swing > 0 ? fmin(use->law.reach, swing) : use->law.reach;
+    const double least = fmin(behind + way->least, ahead - way->most);
+    if (!use->law.absorb || least >= need * (1 - 1e-9)) return SB_OK;
+    return sb_model_warn(
+        model, error,
+        "wave maker \"%s\": to absorb waves it may have to move %.3g m from its law, and the sides of the domain leave "
+        "%.3g m: it stops there, and reflects; expected a longer domain, or a reach of at most that",
+        use->name, need, fmax(least, 0));
+}
+
 static sb_status check_travel(const sb_scene *scene, const sb_wavemaker_use *use, extent paddle, sb_model *model,
                               sb_error *error)
 {
-    const sb_vec3 back = sb_scale(use->direction, -1);
     sb_paddle law;
     if (sb_paddle_create(&use->law, &law, NULL) != SB_OK) return SB_OK;
     const sb_paddle_way way = sb_paddle_way_of(&law, scene->duration);
     sb_paddle_destroy(&law);
     const double ahead = sb_domain_end(&scene->domain, use->direction) - paddle.front;
-    const double end = sb_domain_end(&scene->domain, back);
-    const double behind = end + paddle.back > 0 ? end + paddle.back : end + paddle.front;
-    if (way.most <= ahead && -way.least <= behind) return SB_OK;
+    const double behind = sb_domain_room(&scene->domain, use->direction, paddle.front, paddle.back);
+    if (way.most <= ahead && -way.least <= behind) return check_reach(use, &way, behind, ahead, model, error);
     return sb_model_warn(
         model, error,
         "wave maker \"%s\": it moves %.3g m back and %.3g m ahead, and the domain has %.3g m behind it "

@@ -22,9 +22,9 @@ bool sb_absorbing_advance(const sb_absorbing_filter *filter, const sb_absorbing_
     follow(&state->fast, beyond - state->low, filter->pole, dt);
     state->speed = -filter->gain * state->fast - filter->slow * state->offset;
     double next = state->offset + state->speed * dt;
-    const bool stopped = fabs(next) > input->reach;
+    const bool stopped = next < input->least || next > input->most;
     if (stopped) {
-        next = copysign(input->reach, next);
+        next = fmin(fmax(next, input->least), input->most);
         state->speed = (next - state->offset) / dt;
     }
     state->offset = next;

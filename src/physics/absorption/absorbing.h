@@ -15,13 +15,13 @@ typedef struct sb_absorbing_state {
 
 /* What a step needs. */
 typedef struct sb_absorbing_input {
-    double surface;   /* m, measured beside the paddle, above its level at rest */
-    double expected;  /* m, what the law makes there by linear theory */
-    double law_speed; /* m/s, of the law */
-    double reach;     /* m, of the offset */
+    double surface;     /* m, measured beside the paddle, above its level at rest */
+    double expected;    /* m, what the law makes there by linear theory */
+    double law_speed;   /* m/s, of the law */
+    double least, most; /* m, of the offset: <= 0, >= 0 */
 } sb_absorbing_input;
 
-/* Advances the state by dt > 0. Returns whether reach stopped the paddle. */
+/* Advances the state by dt > 0. Returns whether the end of its reach stopped the paddle. */
 bool sb_absorbing_advance(const sb_absorbing_filter *filter, const sb_absorbing_input *input, double dt,
                           sb_absorbing_state *state);
 

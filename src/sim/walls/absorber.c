@@ -44,6 +44,9 @@ sb_status sb_absorber_create(sb_sim *sim, size_t body, sb_moving_body *moving, s
     a->period = moving->law->paddle.kind->facts(moving->law->paddle.state)->period;
     const sb_mesh *mesh = &sim->model->bodies[body].mesh;
     a->face = sb_mesh_front(mesh, use->direction);
+    a->ahead = fmax(sb_domain_end(&sim->scene->domain, use->direction) - a->face, 0);
+    a->behind = sb_domain_room(&sim->scene->domain, use->direction, a->face,
+                               -sb_mesh_front(mesh, sb_scale(use->direction, -1)));
     if (sim->model->bodies[body].plates > 0)
         sb_plate_find(sim, body, a);
     else
@@ -165,10 +168,12 @@ double sb_absorber_advance(sb_sim *sim, sb_moving_body *moving)
     if (!a->known) a->still = a->depth - sb_absorber_raised(sim, moving, a->from[0], a->from[1]);
     a->known = true;
     if (a->plates > 0 && a->still == 0) return a->state.offset; /* a plate before land stays at its law */
+    const double next = moving->next_displacement;              /* of the law */
     const sb_absorbing_input input = {.surface = a->depth - a->still,
                                       .expected = moving->law->surface,
-                                      .law_speed = (moving->next_displacement - law) / dt,
-                                      .reach = a->reach};
+                                      .law_speed = (next - law) / dt,
+                                      .least = fmax(-a->reach, fmin(-a->behind - next, 0)),
+                                      .most = fmin(a->reach, fmax(a->ahead - next, 0))};
     if (sb_absorbing_advance(&moving->law->filter, &input, dt, &a->state)) a->limited++;
     a->farthest = fmax(a->farthest, fabs(a->state.offset));
     note_drift(a, dt);

@@ -10,6 +10,7 @@ typedef struct sb_absorber {
     double face, distance;   /* m along the direction: face at rest; place ahead of it where its water is measured */
     double side[2], from[2]; /* unit vector along the face in x and y; its extent along that within the domain, m */
     double reach;            /* m */
+    double behind, ahead;    /* m: how far it may move from its place at rest, until its body is at the domain's side */
     size_t plate, plates;    /* of a paddle that is divided, whose plates follow each other; 0, 0: it is one */
     double period;           /* s, of its waves, at the peak */
     double depth;            /* m, of the water beside it at the beginning of the step */
@@ -20,7 +21,7 @@ typedef struct sb_absorber {
                      0: a plate before land */
     sb_absorbing_state state; /* its displacement from the law, and the filter's values */
     double farthest;          /* m, largest displacement from the law */
-    uint64_t limited;         /* steps in which reach stopped it */
+    uint64_t limited;         /* steps in which reach or a side of the domain stopped it */
     double sum, elapsed;      /* m s, s: integral of the displacement from the law over the present ten periods */
     double drift, drift_most; /* m, its mean over the last whole ten periods, and the largest magnitude of these */
 } sb_absorber;

@@ -95,6 +95,28 @@ static void waves_between_absorbers_die_out(void **state)
     assert_true(share[1] < 0.03);
 }
 
+/* The waves come back with more than the 3 cm that the far paddle has behind it. */
+static void the_domain_stops_a_paddle(void **state)
+{
+    (void)state;
+    flume f;
+    make(&f, true);
+    sb_absorber *far = f.sim->walls.moving[f.sim->walls.moving_of_body[1]].absorber;
+    assert_near(far->behind, 9.3 - 8.7, 1e-6);
+    assert_near(far->ahead, 8.3 + 1, 1e-6);
+    far->behind = 0.03;
+    double least = 0;
+    while (sb_sim_report(f.sim)->time < 14) {
+        assert_int_equal(tank_steps(f.sim, 1), 0);
+        least = fmin(least, sb_sim_absorption(f.sim, 1).offset);
+    }
+    const uint64_t limited = sb_sim_absorption(f.sim, 1).limited;
+    printf("stopped %.4g m behind its law, in %llu steps\n", -least, (unsigned long long)limited);
+    assert_near(least, -0.03, 1e-9);
+    assert_true(limited > 0);
+    free_flume(&f);
+}
+
 static uint64_t run(flume *f, int threads, int steps)
 {
     omp_set_num_threads(threads);
@@ -157,6 +179,7 @@ int main(void)
         cmocka_unit_test(the_window_does_not_see_rows),
         cmocka_unit_test(crowding_is_found_without_boundary_particles),
         cmocka_unit_test(waves_between_absorbers_die_out),
+        cmocka_unit_test(the_domain_stops_a_paddle),
         cmocka_unit_test(state_is_saved_and_independent_of_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
