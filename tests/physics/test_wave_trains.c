@@ -257,6 +257,36 @@ static void cnoidal_piston_moves_with_the_water(void **state)
     }
 }
 
+/* At a place that moves with the paddle a cnoidal wave has a positive mean, about the one of second order that the
+   filter of an absorbing paddle takes away: the law's surface there has none. */
+static void surfaces_have_no_mean_beside_the_paddle(void **state)
+{
+    (void)state;
+    enum { N = 1000 };
+    sb_wavemaker_parameters p = parameters_of("regular");
+    p.period = 2;
+    p.depth = 0.25;
+    sb_wave_train *train = train_of(&p);
+    double sum[2] = {0}, square = 0;
+    for (int far = 0; far < 2; far++) {
+        sb_wave_train_place(train, 0.1 * far);
+        for (int i = 0; i < N; i++) {
+            const double z = sb_wave_train_surface(train, train->ramp + p.period * i / N);
+            sum[far] += z / N;
+            square += far ? 0 : z * z / N;
+        }
+    }
+    assert_near(sum[0], 0, 1e-6);
+    assert_near(sum[1], 0, 1e-6);
+    sb_wave_train_place(train, 0);
+    const double k = train->facts.number;
+    printf("mean of the surface %.4g m, of second order %.4g m\n", train->mean,
+           square * sb_paddle_mean_of_square(k, p.depth));
+    assert_true(train->mean > 0.5 * square * sb_paddle_mean_of_square(k, p.depth));
+    assert_true(train->mean < 3 * square * sb_paddle_mean_of_square(k, p.depth));
+    sb_wave_train_destroy(train);
+}
+
 static void irregular_waves_have_their_height_and_peak(void **state)
 {
     (void)state;
@@ -465,6 +495,7 @@ int main(void)
         cmocka_unit_test(steep_waves_are_told),
         cmocka_unit_test(long_waves_break_below_the_highest_solitary_wave),
         cmocka_unit_test(waves_break_as_the_highest_steady_waves),
+        cmocka_unit_test(surfaces_have_no_mean_beside_the_paddle),
         cmocka_unit_test(cnoidal_piston_moves_with_the_water),
         cmocka_unit_test(irregular_waves_have_their_height_and_peak),
         cmocka_unit_test(focused_waves_meet_at_their_place_and_time),

@@ -81,10 +81,31 @@ double sb_wave_train_duration(const void *state)
     return ((const sb_wave_train *)state)->lasts;
 }
 
+/* Of a cnoidal wave at time t, at the place ahead of the paddle, m. */
+static double cnoidal_elevation(const sb_wave_train *train, double t)
+{
+    double phase;
+    sb_wave_motion motion;
+    (void)sb_cnoidal_piston(&train->cnoidal, t, &phase);
+    phase += train->place / train->cnoidal.length;
+    sb_cnoidal_at(&train->cnoidal, phase - round(phase), 0, &motion);
+    return motion.elevation;
+}
+
+/* The paddle stays longer before crests, which move with it. */
+static double cnoidal_mean(const sb_wave_train *train)
+{
+    enum { SAMPLES = 400 };
+    double sum = 0;
+    for (int i = 0; i < SAMPLES; i++) sum += cnoidal_elevation(train, train->facts.period * i / SAMPLES);
+    return sum / SAMPLES;
+}
+
 void sb_wave_train_place(void *state, double distance)
 {
     sb_wave_train *train = state;
     train->place = distance;
+    if (train->is_cnoidal) train->mean = cnoidal_mean(train);
     for (size_t i = 0; i < train->count; i++) {
         sb_train_part *p = &train->part[i];
         p->near = p->bound ? 0 : sb_paddle_evanescent(train->motion, p->omega, train->depth, train->gravity, distance);
@@ -95,15 +116,7 @@ double sb_wave_train_surface(const void *state, double t)
 {
     const sb_wave_train *train = state;
     if (t <= 0 || t >= train->lasts) return 0;
-    double sum = 0;
-    if (train->is_cnoidal) {
-        double phase;
-        sb_wave_motion motion;
-        (void)sb_cnoidal_piston(&train->cnoidal, t, &phase);
-        phase += train->place / train->cnoidal.length;
-        sb_cnoidal_at(&train->cnoidal, phase - round(phase), 0, &motion);
-        sum = motion.elevation;
-    }
+    double sum = train->is_cnoidal ? cnoidal_elevation(train, t) - train->mean : 0;
     for (size_t i = 0; i < train->count; i++) {
         const sb_train_part *p = &train->part[i];
         const double angle = p->omega * t + p->phase;

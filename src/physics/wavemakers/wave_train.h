@@ -29,6 +29,7 @@ typedef struct sb_wave_train {
     sb_train_part *part;
     bool is_cnoidal;
     sb_cnoidal cnoidal;
+    double mean; /* m, of a cnoidal wave's surface over a period at that place, which moves with the paddle */
     sb_wave_facts facts;
 } sb_wave_train;
 

@@ -86,7 +86,7 @@ struct sb_wavemaker {
     const char *(*warning)(const sb_wavemaker_parameters *parameters);
     /* The following are NULL, except for wave trains (wave_train.h), whose duration may be infinite.
        place sets the distance ahead of the paddle at which surface is asked for; surface is that of the waves, m above
-       the still level, t seconds after the start, the waves that stay near the paddle included. */
+       their mean there, t seconds after the start, the waves that stay near the paddle included. */
     void (*place)(void *state, double distance);
     double (*surface)(const void *state, double t);
     /* Writes at most `capacity` frequencies of the waves, and returns their number. */
