@@ -27,8 +27,7 @@ static void add(waves_found *found, sb_scene_waves waves)
     if (first) found->waves = waves;
 }
 
-/* Solitary waves and absorbers have none; those of a file have the period of its highest wave. */
-static sb_scene_waves waves_of_maker(const sb_wavemaker_use *maker)
+sb_scene_waves sb_waves_of_maker(const sb_wavemaker_use *maker)
 {
     const sb_wavemaker_parameters *law = &maker->law;
     sb_scene_waves waves = {.maker = "", .name = maker->name, .period = law->period, .depth = law->depth, .law = law};
@@ -47,7 +46,7 @@ sb_scene_waves sb_scene_waves_of(const sb_scene *scene)
     const sb_given_sea *sea = &scene->given;
     const sb_initial_wave *start = &scene->wave;
     waves_found found = {0};
-    for (size_t w = 0; w < scene->wavemaker_count; w++) add(&found, waves_of_maker(&scene->wavemakers[w]));
+    for (size_t w = 0; w < scene->wavemaker_count; w++) add(&found, sb_waves_of_maker(&scene->wavemakers[w]));
     if (sea->source == SB_GIVEN_THEORY && sea->wave == SB_GIVEN_REGULAR)
         add(&found, (sb_scene_waves){"block ", "sea", sea->period, sea->depth, true, NULL});
     if (start->kind == SB_INITIAL_REGULAR)

@@ -11,6 +11,10 @@ typedef struct sb_scene_waves {
     const sb_wavemaker_parameters *law; /* of the wave maker, or NULL */
 } sb_scene_waves;
 
+/* Returns the waves of a wave maker. Solitary waves and absorbers have none; those of a file have the period of its
+   highest one. */
+sb_scene_waves sb_waves_of_maker(const sb_wavemaker_use *maker);
+
 /* Returns the waves of wave makers, of the given sea, and of the water at the start. Those that differ by less than
    half a per cent in period and depth are the same. */
 sb_scene_waves sb_scene_waves_of(const sb_scene *scene);

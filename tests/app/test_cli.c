@@ -281,6 +281,11 @@ static void check_shows_waves_and_rates(void **state)
     const double rate = 0.047 * exp(-pow(2.35 * 0.4 / 0.3, 1.3)) * sqrt(9.81 * 0.3 * 0.3 * 0.3);
     assert_near(figure(o.out, "eurotop_m2_s"), rate, 1e-6 * rate);
     outcome_free(&o);
+    /* Its amplitudes are in proportion to the energies of the same spectrum. */
+    write_text("focused.yaml", PADDLE("kind: focused, height: 0.3, period: 3, distance: 8, focus: 30"));
+    o = RUN(0, "check", "focused.yaml", "--json");
+    assert_near(figure(o.out, "t_m_10_s"), 0.906 * 3, 0.03);
+    outcome_free(&o);
     write_text("steep.yaml", PADDLE("kind: regular, height: 0.15, period: 1"));
     o = RUN(0, "check", "steep.yaml", "--json");
     assert_near(figure(o.out, "steady_wavelength_m"), 1.6585, 5e-4);

@@ -293,6 +293,21 @@ static const struct {
           "wavemakers: [{name: w, body: paddle, kind: regular, height: 0.1, period: 1.5, depth: 0.5}, "
           "{name: eater, body: far, kind: absorber, direction: [-1, 0, 0], depth: 0.5, period: 7}]\n",
      "wave maker \"eater\": it absorbs waves of 7 s, and those of \"w\" have 1.5 s", "expected period: 1.5"},
+    {TANK "domain: {min: [-1, 0], max: [4, 0.8]}\nwater: {level: 0.5, seed: [1, 0.2]}\n"
+          "bodies: [{name: paddle, shape: box, min: [-0.5, 0], max: [0, 0.7]}, "
+          "{name: far, shape: box, min: [3.5, 0], max: [3.9, 0.7]}]\n"
+          "wavemakers: [{name: w, body: paddle, kind: irregular, height: 0.1, period: 1.5, depth: 0.5}, "
+          "{name: eater, body: far, kind: absorber, direction: [-1, 0, 0], depth: 0.5, period: 7}]\n",
+     "wave maker \"eater\": it absorbs waves of 7 s, and those of \"w\" have 1.5 s", "expected period: 1.5"},
+    {TANK "domain: {min: [-1, 0], max: [4, 0.8]}\nwater: {level: 0.5, seed: [1, 0.2]}\n"
+          "bodies: [{name: far, shape: box, min: [3.5, 0], max: [3.9, 0.7]}]\n"
+          "wavemakers: [{name: eater, body: far, kind: absorber, direction: [-1, 0, 0], depth: 0.5, period: 2}]\n",
+     "wave maker \"eater\": to absorb waves it may have to move 0.25 m", "the sides of the domain leave 0.1"},
+    {WAVES_BY("kind: irregular, height: 0.22, depth: 0.5, period: 1.5"),
+     "wave maker \"w\": its crests at z = 0.72 m are above the top of its body",
+     "expected a higher body or lower waves"},
+    {WAVES_BY("kind: signal, depth: 0.5, file: high.txt, distance: 1"),
+     "wave maker \"w\": the highest wave of its file, 0.3 m, may break", "expected at most 0.2"},
     {FLUME("kind: regular, height: 0.6, period: 2.3", "", ""), "wave maker \"w\": a height of 0.6 m is 9",
      "expected at most 0.5"},
     {FLUME("kind: irregular, height: 0.6, period: 2.3, seed: 1", "", ""),
@@ -337,6 +352,17 @@ static const struct {
      "measure.reflections r: no water is at gauge \"a\" at t = 0", "expected gauges in the water"},
 };
 
+/* Three waves of 2 s and 0.3 m, and calm water before and after. */
+static void write_high(const char *name)
+{
+    char text[8192];
+    size_t length = 0;
+    for (int i = 0; i < 400; i++)
+        length += (size_t)snprintf(text + length, sizeof text - length, "%.1f %.4f\n", 0.1 * i,
+                                   i >= 100 && i < 160 ? 0.15 * sin(0.1 * M_PI * i) : 0);
+    write_text(name, text);
+}
+
 /* Waves of 0.4 s and 1 cm on a level that rises by 4 mm in 12.8 s. */
 static void write_drift(const char *name)
 {
@@ -355,6 +381,7 @@ static void check_and_run_give_the_same_warnings(void **state)
     write_text("short.txt", "0.03 2 0\n0.02 0.8 0\n");
     write_text("list.txt", "0.01 1.5 0\n0.01 1.2 0\n");
     write_drift("drift.txt");
+    write_high("high.txt");
     write_text("signal.txt", "0 0\n.1 .01\n.2 0\n.3 -.01\n.4 0\n.5 .01\n.6 0\n.7 -.01\n.8 0\n.9 .01\n1 0\n1.1 -.01\n");
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         write_text("doubtful.yaml", cases[k].scene);

@@ -58,6 +58,21 @@ static void warn_of_height(const char *what, double height, double number, doubl
     visit(context, text);
 }
 
+/* A signal's waves are known: what its file has must come out. */
+static void warn_of_highest(const char *what, double highest, double number, double depth, sb_warning_visit *visit,
+                            void *context)
+{
+    char text[400];
+    const double most = sb_breaking_height(number, depth);
+    if (!(highest > NEARLY * most)) return;
+    snprintf(
+        text, sizeof text,
+        "%s the highest wave of its file, %.3g m, may break on its way: waves of the file's period break at %.3g m; "
+        "expected at most %.3g m",
+        what, highest, sb_breaking_shown(most), sb_breaking_shown(NEARLY * most));
+    visit(context, text);
+}
+
 static void warn_of_maker(const sb_wavemaker_use *maker, sb_warning_visit *visit, void *context)
 {
     char what[SB_NAME_MAX + 32];
@@ -67,7 +82,9 @@ static void warn_of_maker(const sb_wavemaker_use *maker, sb_warning_visit *visit
     const bool regular = strcmp(f->height_name, "height") == 0;
     snprintf(what, sizeof what, "wave maker \"%s\":", maker->name);
     /* waves that focus are meant to be steep where they do */
-    if (f->height > 0 && (regular || strcmp(f->height_name, "significant height") == 0))
+    if (f->highest > 0)
+        warn_of_highest(what, f->highest, 2 * M_PI / f->length, maker->law.depth, visit, context);
+    else if (f->height > 0 && (regular || strcmp(f->height_name, "significant height") == 0))
         warn_of_height(what, f->height, 2 * M_PI / f->length, maker->law.depth, regular, visit, context);
     sb_paddle_destroy(&paddle);
 }

@@ -6,6 +6,7 @@
 #include "physics/waves/dispersion.h"
 #include "physics/waves/regular_wave.h"
 #include "physics/waves/steady_wave.h"
+#include "scene/scene_waves.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -280,24 +281,24 @@ static sb_status warn_of_slow(const sb_wavemaker_use *maker, const sb_paddle *pa
     return SB_OK;
 }
 
-/* An absorber knows one period, and regular waves have one. */
+/* An absorber knows one period. */
 static void warn_of_absorber(const sb_scene *scene, const sb_wavemaker_use *absorber, sb_warning_visit *visit,
                              void *context)
 {
-    const sb_wavemaker_use *other = NULL;
+    sb_scene_waves other = {0};
     char text[300];
     for (size_t w = 0; w < scene->wavemaker_count; w++) {
-        const sb_wavemaker_use *maker = &scene->wavemakers[w];
-        if (strcmp(maker->law.kind->name, "regular") != 0) continue;
-        if (fabs(absorber->law.period / maker->law.period - 1) < 0.1) return;
-        other = maker;
+        const sb_scene_waves waves = sb_waves_of_maker(&scene->wavemakers[w]);
+        if (!(waves.period > 0)) continue;
+        if (fabs(absorber->law.period / waves.period - 1) < 0.1) return;
+        other = waves;
     }
-    if (!other) return;
+    if (!(other.period > 0)) return;
     snprintf(
         text, sizeof text,
         "wave maker \"%s\": it absorbs waves of %g s, and those of \"%s\" have %g s: it reflects more of them than "
         "predicted; expected period: %g",
-        absorber->name, absorber->law.period, other->name, other->law.period, other->law.period);
+        absorber->name, absorber->law.period, other.name, other.period, other.period);
     visit(context, text);
 }
 

@@ -45,16 +45,18 @@ typedef struct mean_periods {
     size_t count;            /* of waves; 0: no spectrum */
 } mean_periods;
 
-static mean_periods mean_periods_of(const sb_paddle *paddle)
+/* Amplitudes of a group that focuses are in proportion to the energies of its spectrum. */
+static mean_periods mean_periods_of(const sb_wavemaker_use *maker, const sb_paddle *paddle)
 {
     mean_periods found = {0};
     double zeroth = 0, second = 0, inverse = 0;
     if (paddle->kind->facts(paddle->state)->repeats) return found;
     sb_band_part *band = sb_paddle_band(paddle, &found.count);
     for (size_t i = 0; band && i < found.count; i++) {
-        zeroth += band[i].weight;
-        second += band[i].weight * band[i].omega * band[i].omega;
-        inverse += band[i].weight / band[i].omega;
+        const double energy = maker->law.kind->needs & SB_WM_FOCUS ? sqrt(band[i].weight) : band[i].weight;
+        zeroth += energy;
+        second += energy * band[i].omega * band[i].omega;
+        inverse += energy / band[i].omega;
     }
     if (!(zeroth > 0)) found.count = 0;
     found.crossing = 2 * M_PI * sqrt(zeroth / second);
@@ -150,7 +152,7 @@ static void print_train(void *context, const sb_scene *scene, const sb_wavemaker
            maker->name, maker->law.kind->name, f->theory, f->height_name, f->height, f->period,
            f->count > 2 ? " at the peak" : "", f->depth, f->length, steady, f->number * f->depth, f->height / f->length,
            f->ursell, f->height / spacing, f->length / spacing, travel_of(scene, paddle));
-    const mean_periods mean = mean_periods_of(paddle);
+    const mean_periods mean = mean_periods_of(maker, paddle);
     if (mean.count > 0)
         printf("    %zu linear waves; mean periods T_m02 %.4g s, T_m-1,0 %.4g s\n", mean.count, mean.crossing,
                mean.energy);
@@ -259,7 +261,7 @@ static void put_train(void *context, const sb_scene *scene, const sb_wavemaker_u
     sb_json_number(json, "particles_per_height", f->height / scene->resolution);
     sb_json_number(json, "particles_per_wavelength", f->length / scene->resolution);
     sb_json_number(json, "travel_m", travel_of(scene, paddle));
-    const mean_periods mean = mean_periods_of(paddle);
+    const mean_periods mean = mean_periods_of(maker, paddle);
     if (mean.count > 0) {
         sb_json_count(json, "components", mean.count);
         sb_json_number(json, "t_m02_s", mean.crossing);

@@ -1,5 +1,6 @@
 /* Waves whose surface a gauge has measured: their linear Fourier components. */
 #include "base/memory.h"
+#include "physics/records/wave_heights.h"
 #include "physics/wavemakers/number_rows.h"
 #include "physics/wavemakers/wave_train.h"
 
@@ -108,6 +109,21 @@ static void fill_parts(const series *s, double distance, sb_wave_train *train)
     train->facts.height = sqrt(8 * sum);
 }
 
+/* Calm water in the file lowers the significant height, and neither the highest wave nor its crest. */
+static sb_status find_highest(const series *s, sb_wave_facts *facts, sb_error *error)
+{
+    double *t = sb_alloc(s->rows, sizeof *t), *z = sb_alloc(s->rows, sizeof *z);
+    sb_wave_heights heights = {0};
+    sb_status status = t && z ? SB_OK : sb_fail_memory(error, "a wave maker");
+    for (size_t i = 0; status == SB_OK && i < s->rows; i++) t[i] = s->values[2 * i], z[i] = s->values[2 * i + 1];
+    if (status == SB_OK) status = sb_wave_heights_of(t, z, s->rows, &heights, error);
+    if (status == SB_OK && heights.count > 0) facts->highest = heights.highest;
+    if (status == SB_OK) facts->crest = fmax(facts->crest, heights.crest - heights.level);
+    sb_free(t);
+    sb_free(z);
+    return status;
+}
+
 static sb_status create(const sb_wavemaker_parameters *p, void **state, sb_error *error)
 {
     sb_number_rows rows;
@@ -120,6 +136,7 @@ static sb_status create(const sb_wavemaker_parameters *p, void **state, sb_error
     if (status == SB_OK && !(train->facts.height > 0))
         status = sb_fail(error, SB_BAD_INPUT, "%.500s: the surface is constant, expected waves", p->file);
     if (status == SB_OK) status = sb_wave_train_sum(train, p->file, error);
+    if (status == SB_OK) status = find_highest(&s, &train->facts, error);
     const double length = s.step * (double)s.rows;
     sb_free(s.turn);
     sb_number_rows_free(&rows);

@@ -39,6 +39,14 @@ void sb_wave_train_set(sb_wave_train *train, size_t i, double amplitude, double 
                                      .stroke = amplitude / sb_paddle_gain(train->motion, number, train->depth)};
 }
 
+/* All crests at once, or about that of the highest of some hundred waves. */
+static double crest_of_sum(const sb_wave_train *train)
+{
+    double sum = 0;
+    for (size_t i = 0; i < train->count; i++) sum += train->part[i].amplitude;
+    return fmin(sum, train->facts.height);
+}
+
 sb_status sb_wave_train_sum(sb_wave_train *train, const char *path, sb_error *error)
 {
     sb_sum_height all = {0};
@@ -46,6 +54,7 @@ sb_status sb_wave_train_sum(sb_wave_train *train, const char *path, sb_error *er
     for (size_t i = 0; i < train->count; i++) sb_sum_height_add(&all, train->part[i].amplitude, train->part[i].number);
     train->facts.height = sb_sum_height_of(&all);
     train->facts.height_name = "significant height";
+    train->facts.crest = crest_of_sum(train);
     if (sb_sum_height_check(&all, train->depth, &why) == SB_OK) return SB_OK;
     return sb_fail(error, SB_BAD_INPUT, "%.500s: %.300s", path, why.text);
 }
@@ -150,7 +159,7 @@ void sb_wave_train_complete(sb_wave_train *train)
     sb_wave_facts *facts = &train->facts;
     facts->ramp = train->ramp = train->ramp < 0 ? 2 * facts->period : train->ramp;
     train->origin = train->ramp > 0 ? 0 : full_displacement(train, 0);
-    if (!(facts->crest > 0)) facts->crest = 0.5 * facts->height;
+    if (!(facts->crest > 0)) facts->crest = crest_of_sum(train);
     facts->slow = 2 * M_PI / facts->period / SLOW;
     facts->depth = train->depth;
     facts->number =

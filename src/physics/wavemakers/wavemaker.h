@@ -63,7 +63,8 @@ typedef struct sb_wave_facts {
     const char *theory;            /* static text */
     const char *height_name;       /* "height", "significant height", ...: static text */
     double height, period, depth;  /* m; s, at the peak of a spectrum; m */
-    double crest;                  /* m above the still level; of sums half of the height; 0: no waves */
+    double crest;                  /* m above the still level, of sums the significant height at most; 0: no waves */
+    double highest;                /* m, of a signal the highest wave by zero crossing; 0: not known */
     double length, number, ursell; /* m; 1/m; H L^2/d^3 with the length of the linear wave, which decides */
     double ramp;                   /* s */
     double slow;                   /* 1/s, rate at which an absorbing paddle forgets levels and returns */
